@@ -1,0 +1,27 @@
+# What every target of ours is compiled with, and nothing imported is.
+add_library(sc_options INTERFACE)
+target_compile_options(sc_options INTERFACE -Wall -Wextra -Wshadow -Wconversion -Werror
+                                            -ffp-contract=off)
+# One include root: every include names its room, so the arrows between rooms can be read.
+target_include_directories(sc_options INTERFACE ${PROJECT_SOURCE_DIR})
+target_compile_definitions(sc_options INTERFACE TWINCRAFT_VERSION="${PROJECT_VERSION}")
+
+option(TWINCRAFT_SANITIZE "Build with AddressSanitizer and UndefinedBehaviorSanitizer" OFF)
+if(TWINCRAFT_SANITIZE)
+  target_compile_options(sc_options INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=all
+                                              -fno-omit-frame-pointer
+                                              -Wno-maybe-uninitialized)  # false under sanitizers
+  target_link_options(sc_options INTERFACE -fsanitize=address,undefined)
+endif()
+
+# A build that was done before is not done again.
+find_program(CCACHE_PROGRAM ccache)
+if(CCACHE_PROGRAM AND NOT DEFINED CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
+endif()
+
+# A room: a static library of ours. sc_room(NAME sources... ) then target_link_libraries.
+function(sc_room name)
+  add_library(${name} STATIC ${ARGN})
+  target_link_libraries(${name} PUBLIC sc_options)
+endfunction()

@@ -1,0 +1,87 @@
+// See engines.h. Tested by tests/compiler/engines_test.cpp.
+#include "compiler/components/engines.h"
+
+#include "compiler/components/physical.h"
+
+namespace twincraft {
+namespace {
+
+const Table<BsmSpec>& bsm_table() {
+  static const Table<BsmSpec> table{
+      "bsm",
+      "The analytic back-substitution engine.",
+      {
+          optional("attitude", &BsmSpec::attitude,
+                   one_of<AttitudeChart>(
+                       {{"mrp", AttitudeChart::kMrp}, {"quaternion", AttitudeChart::kQuaternion}}),
+                   "What it integrates."),
+          optional("gravity", &BsmSpec::gravity, maybe(gravity_law()),
+                   "Overrides `environment.gravity.application` for this engine."),
+      }};
+  return table;
+}
+
+const Table<MujocoSpec>& mujoco_table() {
+  static const Table<MujocoSpec> table{
+      "mujoco",
+      "The MuJoCo engine.",
+      {
+          optional("frame", &MujocoSpec::frame,
+                   one_of<MujocoFrame>({{"comoving", MujocoFrame::kComoving},
+                                        {"inertial", MujocoFrame::kInertial}}),
+                   "`comoving`: evaluated in the frame that moves with the hub. `inertial`: MuJoCo "
+                   "gets the raw state, with the rounding of its large velocity."),
+          optional("wheel_mass", &MujocoSpec::wheel_mass, quantity("kg", Range::kPositive),
+                   "Token mass of a massless wheel, which MuJoCo cannot do without."),
+          optional("compensate", &MujocoSpec::compensate, boolean(),
+                   "Take the token masses back out of what carries the wheels, so that the tree is "
+                   "exactly the massless-wheel vehicle; `false` adds them on top."),
+          optional("gravity", &MujocoSpec::gravity, maybe(gravity_law()),
+                   "Overrides `environment.gravity.application` for this engine."),
+      }};
+  return table;
+}
+
+template <class Engine>
+void check_override(const Engine& engine, bool deep_space, Diagnostics& diagnostics) {
+  if (!engine.gravity || !deep_space) return;
+  diagnostics
+      .error(Code::kNeedsGravity, engine.span_of("gravity"), "a law of gravity in deep space")
+      .with_hint("add `environment: {gravity: {mu: 3.98600436e14 m3/s2}}`");
+}
+
+}  // namespace
+
+const Table<EnginesSpec>& engines_table() {
+  static const Table<EnginesSpec> table{
+      "engines",
+      "Controls of the comparison; the defaults make both engines the same machine to rounding.",
+      {
+          optional("bsm", &EnginesSpec::bsm, object(bsm_table()), "The analytic engine."),
+          optional("mujoco", &EnginesSpec::mujoco, object(mujoco_table()), "MuJoCo."),
+      }};
+  return table;
+}
+
+void check(const EnginesSpec& engines, const EnvironmentSpec& environment,
+           Diagnostics& diagnostics) {
+  const bool deep_space = !environment.gravity;
+  check_override(engines.bsm, deep_space, diagnostics);
+  check_override(engines.mujoco, deep_space, diagnostics);
+  check_mass(engines.mujoco.wheel_mass, engines.mujoco.span_of("wheel_mass"), "a massless wheel",
+             diagnostics);
+}
+
+EngineControls lower(const EnginesSpec& engines) {
+  return {engines.bsm.attitude, engines.mujoco.frame, engines.mujoco.wheel_mass,
+          engines.mujoco.compensate};
+}
+
+Gravity lower_gravity(const EnvironmentSpec& environment, const EnginesSpec& engines) {
+  if (!environment.gravity) return {};
+  const GravityLaw law = environment.gravity->application;
+  return {environment.gravity->mu, engines.bsm.gravity.value_or(law),
+          engines.mujoco.gravity.value_or(law)};
+}
+
+}  // namespace twincraft

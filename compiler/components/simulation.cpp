@@ -1,0 +1,242 @@
+// See simulation.h. Tested by tests/compiler/simulation_test.cpp.
+#include "compiler/components/simulation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "compiler/ir/number.h"
+
+namespace twincraft {
+namespace {
+
+constexpr double kSamples = 200.0;               // of a run without `record`
+constexpr double kWholeStepsTolerance = 1.0e-9;  // relative: durations are written in decimals
+
+const Table<StepRule>& rule_table() {
+  static const Table<StepRule> table{
+      "step rule",
+      "A step that follows a component's own period.",
+      {
+          required("per_period", &StepRule::per_period, number(Range::kPositive),
+                   "Steps in one period."),
+          required("of", &StepRule::of, reference_to("panel"),
+                   "The panel whose segment's period 2 pi sqrt((I + m d^2)/k) counts; with several "
+                   "stiffnesses the shortest."),
+          optional("maximum", &StepRule::maximum, maybe(quantity("s", Range::kPositive)),
+                   "The step is never longer; default no limit."),
+      }};
+  return table;
+}
+
+const Table<AbsoluteRelative>& parts_table() {
+  static const Table<AbsoluteRelative> table{
+      "tolerance parts",
+      "The error allowed is absolute + relative * size of the block.",
+      {
+          optional("absolute", &AbsoluteRelative::absolute, number(Range::kNotNegative),
+                   "In SI units of the block."),
+          optional("relative", &AbsoluteRelative::relative, number(Range::kNotNegative),
+                   "As a part of the block's size."),
+      }};
+  return table;
+}
+
+Kind<ToleranceSpec> tolerance() {
+  return either(&Node::is_map, object(parts_table()), number(Range::kPositive));
+}
+
+struct Block {
+  const char* key;
+  ToleranceSpec BlockTolerancesSpec::*spec;
+  Tolerance BlockTolerances::*plan;
+  const char* doc;
+};
+
+constexpr Block kBlocks[] = {
+    {"position", &BlockTolerancesSpec::position, &BlockTolerances::position, "Of B [m]."},
+    {"velocity", &BlockTolerancesSpec::velocity, &BlockTolerances::velocity, "Of B [m/s]."},
+    {"attitude", &BlockTolerancesSpec::attitude, &BlockTolerances::attitude,
+     "Of the attitude's parameters [1]."},
+    {"rate", &BlockTolerancesSpec::rate, &BlockTolerances::rate, "Of the body rate [rad/s]."},
+    {"joint", &BlockTolerancesSpec::joint, &BlockTolerances::joint,
+     "Of joint coordinates [rad] or [m]."},
+    {"joint_rate", &BlockTolerancesSpec::joint_rate, &BlockTolerances::joint_rate,
+     "Of joint rates [rad/s] or [m/s]."},
+    {"wheel", &BlockTolerancesSpec::wheel, &BlockTolerances::wheel, "Of wheel speeds [rad/s]."},
+};
+
+const Table<BlockTolerancesSpec>& blocks_table() {
+  const auto fields = [] {
+    std::vector<Field<BlockTolerancesSpec>> all;
+    for (const Block& block : kBlocks) {
+      all.push_back(optional(block.key, block.spec, tolerance(), block.doc));
+    }
+    return all;
+  };
+  static const Table<BlockTolerancesSpec> table{
+      "block tolerances",
+      "Error control per block of the state: a number for both parts, or the parts.", fields()};
+  return table;
+}
+
+const PanelSpec* find_panel(const std::vector<PanelSpec>& panels, const std::string& name) {
+  const auto found = std::find_if(panels.begin(), panels.end(),
+                                  [&](const PanelSpec& panel) { return panel.name == name; });
+  return found == panels.end() ? nullptr : &*found;
+}
+
+double step_of_rule(const StepRule& rule, const PanelSpec& panel) {
+  const double step = segment_period(panel).value() / rule.per_period;
+  return rule.maximum ? std::min(*rule.maximum, step) : step;
+}
+
+/// @return whether the rule gives a step
+bool check_rule(const StepRule& rule, const std::vector<PanelSpec>& panels,
+                Diagnostics& diagnostics) {
+  const PanelSpec* panel = find_panel(panels, rule.of);
+  if (panel == nullptr) {
+    std::vector<std::string> names;
+    for (const PanelSpec& candidate : panels) names.push_back(candidate.name);
+    const std::string near = nearest(rule.of, names);
+    Diagnostic& unknown = diagnostics.error(Code::kUnknownComponent, rule.span_of("of"),
+                                            fmt::format("`{}` is no panel", rule.of));
+    if (!near.empty()) unknown.with_hint(fmt::format("did you mean `{}`?", near));
+    return false;
+  }
+  if (segment_period(*panel)) return true;
+  diagnostics
+      .error(Code::kNoPeriod, rule.span_of("of"),
+             fmt::format("panel `{}` has no period: no hinge of it has stiffness", rule.of))
+      .with_note(panel->span_of("stiffness"), "the panel is here");
+  return false;
+}
+
+void check_step(const SimulationSpec& simulation, double step, Diagnostics& diagnostics) {
+  const Span span = simulation.span_of("step");
+  const double steps = simulation.duration / step;
+  if (step > simulation.duration) {
+    diagnostics
+        .error(Code::kStepTooLong, span,
+               fmt::format("a step of {} s is longer than the duration of {} s", shortest(step),
+                           shortest(simulation.duration)))
+        .with_note(simulation.span_of("duration"), "`duration` is written here");
+    return;
+  }
+  if (std::abs(steps - std::round(steps)) <= kWholeStepsTolerance * steps) return;
+  const std::string message =
+      fmt::format("a step of {} s does not divide the duration of {} s: the last step is shortened",
+                  shortest(step), shortest(simulation.duration));
+  // Nobody chose the very value that a rule gives, so it is no reason to warn.
+  if (std::holds_alternative<StepRule>(simulation.step)) {
+    diagnostics.note(Code::kStepDoesNotDivide, span, message);
+  } else {
+    diagnostics.warning(Code::kStepDoesNotDivide, span, message);
+  }
+}
+
+Tolerance parts(const ToleranceSpec& spec) {
+  if (const double* both = std::get_if<double>(&spec)) return {*both, *both};
+  const AbsoluteRelative& written = std::get<AbsoluteRelative>(spec);
+  return {written.absolute, written.relative};
+}
+
+void check_tolerance(const ToleranceSpec& spec, Span span, Diagnostics& diagnostics) {
+  constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+  const Tolerance tolerance = parts(spec);
+  if (tolerance.absolute == 0.0 && tolerance.relative == 0.0) {
+    diagnostics.error(Code::kToleranceTooSmall, span, "a tolerance of zero can never be met");
+  } else if (tolerance.relative > 0.0 && tolerance.relative < kEpsilon) {
+    diagnostics.error(Code::kToleranceTooSmall, span,
+                      fmt::format("a relative tolerance of {} is below the rounding of doubles, {}",
+                                  shortest(tolerance.relative), shortest(kEpsilon)));
+  }
+}
+
+void check_tolerances(const SimulationSpec& simulation, Diagnostics& diagnostics) {
+  if (const double* all = std::get_if<double>(&simulation.tolerance)) {
+    check_tolerance(*all, simulation.span_of("tolerance"), diagnostics);
+    return;
+  }
+  const auto& blocks = std::get<BlockTolerancesSpec>(simulation.tolerance);
+  for (const Block& block : kBlocks) {
+    check_tolerance(blocks.*block.spec, blocks.span_of(block.key), diagnostics);
+  }
+}
+
+BlockTolerances tolerances(const SimulationSpec& simulation) {
+  const auto* blocks = std::get_if<BlockTolerancesSpec>(&simulation.tolerance);
+  BlockTolerances plan;
+  for (const Block& block : kBlocks) {
+    plan.*block.plan = blocks != nullptr ? parts(blocks->*block.spec)
+                                         : parts(std::get<double>(simulation.tolerance));
+  }
+  return plan;
+}
+
+/// The shortest whole number of steps that makes no more than kSamples records.
+double default_record(double step, double duration) {
+  return step * std::max(1.0, std::ceil(duration / kSamples / step * (1.0 - kWholeStepsTolerance)));
+}
+
+}  // namespace
+
+const Table<SimulationSpec>& simulation_table() {
+  static const Table<SimulationSpec> table{
+      "simulation",
+      "How the run is made, the same for both engines.",
+      {
+          optional("mode", &SimulationSpec::mode,
+                   one_of<SimulationMode>({{"full", SimulationMode::kFull}}),
+                   "`full`: translation, rotation and all coordinates."),
+          optional("integrator", &SimulationSpec::integrator,
+                   one_of<Method>({{"euler", Method::kEuler},
+                                   {"rk2", Method::kRk2},
+                                   {"rk4", Method::kRk4},
+                                   {"rkf45", Method::kRkf45},
+                                   {"rkf78", Method::kRkf78}}),
+                   "`rkf45` and `rkf78` choose their steps by `tolerance`, the others are fixed."),
+          required(
+              "step", &SimulationSpec::step,
+              either(&Node::is_map, object(rule_table()), quantity("s", Range::kPositive)),
+              "The fixed step, or the interval at which an adaptive method is sure to land; or "
+              "a rule for it."),
+          optional("tolerance", &SimulationSpec::tolerance,
+                   either(&Node::is_map, object(blocks_table()), number(Range::kPositive)),
+                   "Of adaptive methods: one number, absolute and relative alike, or per block."),
+          required("duration", &SimulationSpec::duration, quantity("s", Range::kPositive),
+                   "From t = 0."),
+          optional("record", &SimulationSpec::record, maybe(quantity("s", Range::kPositive)),
+                   "Interval of recorded samples; below `step` every step is recorded. Default: "
+                   "whole steps, about 200 samples."),
+      }};
+  return table;
+}
+
+double step_of(const SimulationSpec& simulation, const std::vector<PanelSpec>& panels) {
+  const StepRule* rule = std::get_if<StepRule>(&simulation.step);
+  if (rule == nullptr) return std::get<double>(simulation.step);
+  return step_of_rule(*rule, *find_panel(panels, rule->of));
+}
+
+void check(const SimulationSpec& simulation, const std::vector<PanelSpec>& panels,
+           Diagnostics& diagnostics) {
+  check_tolerances(simulation, diagnostics);
+  const StepRule* rule = std::get_if<StepRule>(&simulation.step);
+  if (rule != nullptr && !check_rule(*rule, panels, diagnostics)) return;
+  check_step(simulation, step_of(simulation, panels), diagnostics);
+}
+
+SimulationPlan lower(const SimulationSpec& simulation, const std::vector<PanelSpec>& panels) {
+  SimulationPlan plan;
+  plan.method = simulation.integrator;
+  plan.step = step_of(simulation, panels);
+  plan.duration = simulation.duration;
+  plan.record = simulation.record.value_or(default_record(plan.step, plan.duration));
+  plan.tolerance = tolerances(simulation);
+  return plan;
+}
+
+}  // namespace twincraft

@@ -1,0 +1,52 @@
+// The whole spec as C++: one struct per section, filled by its field table. The file a component
+// lives in declares its struct; this one puts them together.
+// Tested by tests/compiler/spec_test.cpp.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compiler/components/agreement.h"
+#include "compiler/components/engines.h"
+#include "compiler/components/environment.h"
+#include "compiler/components/hub.h"
+#include "compiler/components/initial.h"
+#include "compiler/components/load.h"
+#include "compiler/components/panel.h"
+#include "compiler/components/simulation.h"
+#include "compiler/components/wheel.h"
+
+namespace twincraft {
+
+struct Spec : Written {
+  std::string format;
+  std::string name;
+  std::string description;
+  HubSpec hub;
+  std::vector<WheelSpec> wheels;
+  std::vector<PanelSpec> panels;
+  std::vector<LoadSpec> loads;
+  EnvironmentSpec environment;
+  InitialSpec initial;
+  SimulationSpec simulation;
+  EnginesSpec engines;
+  AgreementSpec agreement;
+  std::vector<ReferenceKind> references;
+};
+
+const Table<Spec>& spec_table();
+
+/// Whether this program reads the format that the document names; if not, that is reported. Comes
+/// before reading: the keys of another version would all be faults. A missing `format` is left to
+/// the table.
+bool check_format(const Node& root, Diagnostics& diagnostics);
+
+/// Unique names, references between components, and every component's own check.
+void check(const Spec& spec, Diagnostics& diagnostics);
+
+/// Both halves of the model, with its initial state. Nothing when a wheel's token mass leaves no
+/// physical mount, which is reported. @pre check reported no error
+std::optional<Model> lower(const Spec& spec, Diagnostics& diagnostics);
+
+}  // namespace twincraft

@@ -1,0 +1,33 @@
+// A balanced reaction wheel: a rotor whose centre of mass lies on its spin axis and whose tensor is
+// the same at every spin angle, Jt 1 + (Js - Jt) a a^T. Only its spin relative to the mount is a
+// state. Without mass it is the usual idealisation: its mass is counted in the mount's, its whole
+// tensor adds to the mount's, and where it sits does not matter.
+// Tested by tests/compiler/wheel_test.cpp.
+#pragma once
+
+#include "compiler/components/names.h"
+#include "compiler/model_builder.h"
+#include "compiler/schema/table.h"
+
+namespace twincraft {
+
+struct WheelSpec : Written {
+  std::string name;
+  std::string mount = "hub";
+  Vector3d position = Vector3d::Zero();  // [m] centre, mount axes
+  Vector3d axis = Vector3d::UnitZ();     // unit, mount axes
+  double spin_inertia = 0.0;             // Js [kg m^2]
+  double transverse_inertia = 0.0;       // Jt [kg m^2]
+  double mass = 0.0;                     // [kg]
+  double speed = 0.0;                    // [rad/s] initial, relative to the mount
+  Schedule torque;                       // [N m] of the motor, on the wheel
+};
+
+const Table<WheelSpec>& wheel_table();
+
+/// The mount must carry it and the tensor must be some body's: Js <= 2 Jt.
+void check(const WheelSpec& wheel, const Names& names, Diagnostics& diagnostics);
+
+void lower(const WheelSpec& wheel, ModelBuilder& builder);
+
+}  // namespace twincraft

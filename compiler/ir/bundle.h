@@ -1,0 +1,20 @@
+// What one compilation hands on: the model and the very bytes it is written as.
+#pragma once
+
+#include <string>
+
+#include "compiler/ir/model.h"
+
+namespace twincraft {
+
+struct Bundle {
+  Model model;
+  std::string mjcf;           // NAME.xml: what the MuJoCo engine loads; empty when refused
+  std::string assembly_json;  // NAME.bsm.json
+  std::string resolved_yaml;  // NAME.resolved.yaml: every default filled in, SI units
+  std::string resolved_json;  // the same for reports
+  std::string spec_file;      // as given
+  std::string spec_sha256;    // of the spec's bytes
+};
+
+}  // namespace twincraft

@@ -1,0 +1,137 @@
+// The compiled model: one machine, twice, with all that a run of it needs. Immutable after the
+// compiler made it; the runtime sees nothing else of the compiler.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compiler/ir/assembly.h"
+#include "compiler/ir/body_tree.h"
+
+namespace twincraft {
+
+/// A coordinate of the vehicle, in the order of the spec. A hinge or slide is link `index` of the
+/// assembly (its q is entry index - 1 of the joint vector); a wheel is rotor `index`, rate only.
+struct Coordinate {
+  enum class Kind { kPanel, kBodyAngle, kBodyDisplacement, kParticle, kPendulum, kWheel };
+  std::string name;  // `wing_p.1`, `rw_x`, `bob.phi`
+  Kind kind = Kind::kPanel;
+  int index = 0;
+  bool is_length() const { return kind == Kind::kBodyDisplacement || kind == Kind::kParticle; }
+};
+
+/// A force and a torque fixed in a link's axes. Intervals are already folded into the schedules.
+struct Load {
+  std::string name;
+  int link = 0;
+  std::array<Schedule, 3> force_L;   // [N]
+  std::array<Schedule, 3> torque_L;  // [N m]
+  // Where the force acts: a point from the link's origin [m], or the system centre of mass.
+  std::optional<Vector3d> r_FL_L;
+};
+
+enum class GravityLaw {
+  kNone,
+  kSystemCom,     // m g(r_C), one uniform field
+  kBodyCom,       // m_i g(r_i) at every element's centre of mass
+  kBodyGradient,  // kBodyCom and every element's own gravity-gradient torque
+};
+
+struct Gravity {
+  double mu = 0.0;  // [m^3/s^2]
+  GravityLaw bsm = GravityLaw::kNone;
+  GravityLaw mujoco = GravityLaw::kNone;
+};
+
+/// Everything at t = 0, already resolved to the hub origin B; both engines start here.
+struct InitialState {
+  Vector3d r_BN_N = Vector3d::Zero();     // [m]
+  Vector3d v_BN_N = Vector3d::Zero();     // [m/s]
+  Quaterniond q_BN = Quaterniond::Identity();  // B to N components
+  Vector3d omega_BN_B = Vector3d::Zero();  // [rad/s]
+  std::vector<double> joint_position;     // one per link but the hub
+  std::vector<double> joint_rate;
+  std::vector<double> rotor_speed;        // [rad/s] relative to the mount
+};
+
+enum class Method { kEuler, kRk2, kRk4, kRkf45, kRkf78 };
+
+/// absolute + relative * |block|
+struct Tolerance {
+  double absolute = 0.0;
+  double relative = 0.0;
+};
+
+/// Error control per block of the state; `mass` and books are never controlled.
+struct BlockTolerances {
+  Tolerance position, velocity, attitude, rate, joint, joint_rate, wheel;
+};
+
+struct SimulationPlan {
+  Method method = Method::kRk4;
+  double step = 0.0;      // [s] fixed step, or the interval an adaptive method always lands on
+  double duration = 0.0;  // [s]
+  double record = 0.0;    // [s]
+  BlockTolerances tolerance;
+};
+
+enum class AttitudeChart { kMrp, kQuaternion };
+enum class MujocoFrame { kComoving, kInertial };
+
+struct EngineControls {
+  AttitudeChart attitude = AttitudeChart::kMrp;
+  MujocoFrame frame = MujocoFrame::kComoving;
+  double wheel_mass = 1.0e-6;  // [kg] token mass of a massless wheel in the tree
+  bool compensate = true;
+};
+
+/// Tolerances of the verdict; absent: reported, not judged.
+struct Agreement {
+  std::optional<double> attitude;  // [rad]
+  std::optional<double> rate;      // [rad/s]
+  std::optional<double> position;  // [m] system centre of mass
+  std::optional<double> velocity;  // [m/s]
+  std::optional<double> joint;     // [rad] or [m]
+  std::optional<double> wheel;     // [rad/s]
+  std::optional<double> slosh;     // [m]
+  std::optional<double> mass;      // [kg]
+};
+
+/// Osculating elements of the spec's `initial.orbit`, for those who start from one.
+struct Orbit {
+  double semi_major_axis = 0.0;  // [m]
+  double eccentricity = 0.0;
+  double inclination = 0.0;             // [rad]
+  double raan = 0.0;                    // [rad]
+  double argument_of_periapsis = 0.0;   // [rad]
+  double true_anomaly = 0.0;            // [rad]
+};
+
+enum class ReferenceKind { kKepler, kSpinUp };
+
+struct Model {
+  std::string name;
+  std::string description;
+  Assembly assembly;
+  BodyTree tree;
+  std::vector<Coordinate> coordinates;
+  std::vector<Load> loads;
+  Gravity gravity;
+  InitialState initial;
+  SimulationPlan simulation;
+  EngineControls engines;
+  Agreement agreement;
+  std::vector<ReferenceKind> references;
+  // Why the tree cannot be loaded by MuJoCo (a chain too deep); empty when it can.
+  std::string mujoco_refusal;
+
+  /// Velocity coordinates: 6 + joints + wheels.
+  int degrees_of_freedom() const {
+    return 6 + static_cast<int>(assembly.links.size()) - 1 +
+           static_cast<int>(assembly.rotors.size());
+  }
+};
+
+}  // namespace twincraft

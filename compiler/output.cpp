@@ -1,0 +1,125 @@
+// POSIX calls directly: the standard library has no fsync, and its streams hide errno.
+// Tested by tests/compiler/output_test.cpp.
+#include "compiler/output.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cctype>
+#include <cerrno>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+#include "compiler/diag/diagnostics.h"
+
+namespace twincraft {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// With the system's own words, in lower case as all our messages.
+std::string fault(const std::string& target, int error) {
+  std::string reason = std::generic_category().message(error);
+  reason[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(reason[0])));
+  return fmt::format("cannot write {}: {}", target, reason);
+}
+
+std::string fault(const fs::path& path, int error) {
+  return fault(in_backticks(path.string()), error);
+}
+
+/// @return 0 or errno
+int write_all(int descriptor, std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t written = ::write(descriptor, text.data(), text.size());
+    if (written < 0 && errno != EINTR) return errno;
+    if (written > 0) text.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return 0;
+}
+
+/// A file under a temporary name; removed again unless it was published.
+class PendingFile {
+ public:
+  explicit PendingFile(const OutputFile& file) : target_(file.path) {
+    error_ = make_folder();
+    if (error_.empty()) error_ = write(file.text);
+  }
+  PendingFile(PendingFile&& other) noexcept
+      : target_(std::move(other.target_)),
+        temporary_(std::exchange(other.temporary_, {})),
+        error_(std::move(other.error_)) {}
+  PendingFile& operator=(PendingFile&&) = delete;
+  ~PendingFile() {
+    if (!temporary_.empty()) ::unlink(temporary_.c_str());
+  }
+
+  const std::string& error() const { return error_; }
+
+  /// @return empty, or why the file cannot have its name
+  std::string publish() {
+    if (::rename(temporary_.c_str(), target_.c_str()) != 0) return fault(target_, errno);
+    temporary_.clear();
+    return {};
+  }
+
+ private:
+  std::string make_folder() const {
+    std::error_code error;
+    if (target_.has_parent_path()) fs::create_directories(target_.parent_path(), error);
+    if (error) return fault(target_.parent_path(), error.value());
+    if (fs::is_directory(target_, error)) return fault(target_, EISDIR);
+    return {};
+  }
+
+  /// Another run may write to the same folder, so the name is tried until it is new.
+  int open_temporary() {
+    constexpr int kTries = 100;
+    for (int i = 0; i < kTries; ++i) {
+      const fs::path candidate =
+          target_.parent_path() /
+          fmt::format(".{}.{}-{}.tmp", target_.filename().string(), ::getpid(), i);
+      const int descriptor =
+          ::open(candidate.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+      if (descriptor >= 0) temporary_ = candidate;
+      if (descriptor >= 0 || errno != EEXIST) return descriptor;
+    }
+    return -1;
+  }
+
+  std::string write(const std::string& text) {
+    const int descriptor = open_temporary();
+    if (descriptor < 0) return fault(target_, errno);
+    int error = write_all(descriptor, text);
+    if (error == 0 && ::fsync(descriptor) != 0) error = errno;
+    if (::close(descriptor) != 0 && error == 0) error = errno;
+    return error == 0 ? std::string() : fault(target_, error);
+  }
+
+  fs::path target_;
+  fs::path temporary_;
+  std::string error_;
+};
+
+}  // namespace
+
+std::string write_files(const std::vector<OutputFile>& files) {
+  std::vector<PendingFile> pending;
+  for (const OutputFile& file : files) {
+    pending.emplace_back(file);
+    if (!pending.back().error().empty()) return pending.back().error();
+  }
+  for (PendingFile& file : pending) {
+    if (std::string error = file.publish(); !error.empty()) return error;
+  }
+  return {};
+}
+
+std::string write_standard_output(std::string_view text) {
+  const int error = write_all(STDOUT_FILENO, text);
+  return error == 0 ? std::string() : fault(std::string("standard output"), error);
+}
+
+}  // namespace twincraft

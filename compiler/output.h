@@ -1,0 +1,25 @@
+// Writing results so that nothing is ever half written: every file of a run goes to a temporary
+// name in its own folder and reaches the disk before the first one gets its real name. A run that
+// fails leaves earlier files as they were. Also used for reports.
+// Tested by tests/compiler/output_test.cpp.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace twincraft {
+
+struct OutputFile {
+  std::string path;
+  std::string text;
+};
+
+/// Write all of them or none; folders that do not exist are made.
+/// @return empty, or what went wrong: "cannot write `out/a.xml`: no space left on device"
+std::string write_files(const std::vector<OutputFile>& files);
+
+/// @return empty, or what went wrong (a closed pipe included, when SIGPIPE is ignored)
+std::string write_standard_output(std::string_view text);
+
+}  // namespace twincraft

@@ -1,0 +1,88 @@
+// Kinds of value: how one sort of thing is written in a spec. A kind knows four things about its
+// value: how to read it from a syntax node, how to describe it in JSON Schema, how to name it in
+// the reference, and how to write it back resolved. Kinds combine: list_of(quantity("m")),
+// one_or_list(...), object(table). Field tables are made of kinds, and nothing else states what the
+// language accepts. Tested by tests/compiler/kind_test.cpp.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "compiler/ir/mass.h"
+#include "compiler/ir/schedule.h"
+#include "compiler/schema/reading.h"
+
+namespace twincraft {
+
+template <class V>
+struct Kind {
+  std::string text;  // for the reference: "quantity [kg]", "`rk4` or `euler`"
+  Json schema;       // JSON Schema draft-07 fragment
+  /// Report what is wrong and return nothing, or the value.
+  std::function<std::optional<V>(const Node&, ReadContext&)> read;
+  /// SI numbers and canonical words; null leaves the key out.
+  std::function<Json(const V&)> write;
+  std::vector<const TableInfo*> tables = {};  // the maps a value may hold, for the reference
+};
+
+Kind<double> quantity(SiUnit si, Range range = Range::kAny);
+Kind<double> number(Range range = Range::kAny);
+Kind<int> integer(int minimum, int maximum);
+Kind<bool> boolean();
+Kind<std::string> text();
+/// `[A-Za-z][A-Za-z0-9_-]*`, at most 64 characters, none of the reserved words.
+Kind<std::string> name();
+/// The name of another component, or `hub` where a mount is meant; `what` is a bare noun: "tank".
+Kind<std::string> reference_to(std::string what);
+
+/// Three quantities: a list, or `{value: [..], unit: mm}` with plain numbers.
+Kind<Vector3d> vector3(SiUnit si);
+/// Three plain numbers, normalised; the zero vector is a fault.
+Kind<Vector3d> direction();
+/// `[Ixx, Iyy, Izz]` or a symmetric 3x3 list of lists [kg m^2], also with `{value, unit}`. An
+/// asymmetry up to 1e-9 of the largest entry is averaged away. Physical or not is checked later.
+Kind<Matrix3d> inertia();
+/// Three rows of three numbers.
+Kind<Matrix3d> matrix3();
+/// Quantity or `[[t, value], ...]` with increasing times; the range holds for every value.
+Kind<Schedule> schedule(SiUnit si, Range range = Range::kAny);
+/// Three components, each a schedule; also `{value: [..], unit: mN}`.
+Kind<std::array<Schedule, 3>> schedule3(SiUnit si);
+/// `[[start, end], ...]`, forward, ordered, not overlapping.
+Kind<std::vector<Schedule::Interval>> intervals();
+
+/// One of some words: `one_of<Method>({{"rk4", Method::kRk4}, ...})`.
+template <class E>
+Kind<E> one_of(std::vector<std::pair<std::string, E>> words);
+
+template <class V>
+Kind<std::vector<V>> list_of(Kind<V> item, std::size_t minimum = 0,
+                             std::size_t maximum = static_cast<std::size_t>(-1));
+
+/// A value or a list of values; a single value becomes a list of one.
+template <class V>
+Kind<std::vector<V>> one_or_list(Kind<V> item);
+
+/// A kind whose value may be absent.
+template <class V>
+Kind<std::optional<V>> maybe(Kind<V> kind);
+
+/// Two spellings told apart by shape: `first` when `suits(node)`, else `second`. For example
+/// `either(&Node::is_scalar, one_of<Com>({{"com", Com{}}}), vector3("m"))`.
+template <class A, class B>
+Kind<std::variant<A, B>> either(std::function<bool(const Node&)> suits, Kind<A> first,
+                                Kind<B> second);
+
+/// The same spelling for another C++ type: `from` takes the value read, `to` gives it back.
+template <class V, class From, class To>
+Kind<std::invoke_result_t<From, V>> map(Kind<V> kind, From from, To to);
+
+}  // namespace twincraft
+
+#include "compiler/schema/kind_inl.h"

@@ -1,0 +1,192 @@
+// The untyped half of field tables: which keys a map may have, and JSON Schema.
+// Tested by tests/compiler/schema_test.cpp.
+#include "compiler/schema/table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace twincraft {
+namespace {
+
+const FieldInfo* find_field(const TableInfo& info, const std::string& key) {
+  const auto field = std::find_if(info.fields.begin(), info.fields.end(),
+                                  [&key](const FieldInfo& one) { return one.key == key; });
+  return field == info.fields.end() ? nullptr : &*field;
+}
+
+std::vector<std::string> known_keys(const TableInfo& info) {
+  std::vector<std::string> keys;
+  for (const FieldInfo& field : info.fields) keys.push_back(field.key);
+  return keys;
+}
+
+bool check_unknown_keys(const TableInfo& info, const Node& map, const std::string& label,
+                        Diagnostics& diagnostics) {
+  const std::vector<std::string> known = known_keys(info);
+  bool good = true;
+  for (const Node::Key& key : map.keys) {
+    if (find_field(info, key.name) != nullptr) continue;
+    good = false;
+    const std::string likely = nearest(key.name, known);
+    diagnostics
+        .error(Code::kUnknownKey, key.span,
+               fmt::format("unknown key {} in {}", in_backticks(key.name), label))
+        .with_hint(likely.empty() ? "its keys are " + words_text(known, "and")
+                                  : fmt::format("did you mean `{}`?", likely));
+  }
+  return good;
+}
+
+bool check_missing_keys(const TableInfo& info, const Node& map, const std::string& label,
+                        Diagnostics& diagnostics) {
+  bool good = true;
+  for (const FieldInfo& field : info.fields) {
+    if (!field.required || map.find(field.key) != nullptr) continue;
+    good = false;
+    diagnostics
+        .error(Code::kMissingKey, map.span, fmt::format("`{}` is missing in {}", field.key, label))
+        .with_hint(fmt::format("add `{}`: {}", field.key, field.kind));
+  }
+  return good;
+}
+
+/// The keys of `group` that are written in `map`, in the order of writing.
+std::vector<const Node::Key*> written_keys(const KeyGroup& group, const Node& map) {
+  std::vector<const Node::Key*> written;
+  for (const Node::Key& key : map.keys)
+    if (std::find(group.keys.begin(), group.keys.end(), key.name) != group.keys.end())
+      written.push_back(&key);
+  return written;
+}
+
+bool check_group(const KeyGroup& group, const Node& map, const std::string& label,
+                 Diagnostics& diagnostics) {
+  const std::vector<const Node::Key*> written = written_keys(group, map);
+  if (written.empty() && group.required) {
+    diagnostics
+        .error(Code::kMissingKey, map.span,
+               fmt::format("{} has none of {}", label, words_text(group.keys, "and")))
+        .with_hint("write exactly one of them");
+  }
+  for (std::size_t i = 1; i < written.size(); ++i) {
+    diagnostics
+        .error(Code::kExclusiveKeys, written[i]->span,
+               fmt::format("`{}` and `{}` exclude each other in {}", written[0]->name,
+                           written[i]->name, label))
+        .with_note(written[0]->span, fmt::format("`{}` is written here", written[0]->name));
+  }
+  return written.size() == 1 || (written.empty() && !group.required);
+}
+
+Json exactly_one_schema(const std::vector<std::string>& keys) {
+  Json choices = Json::array();
+  for (const std::string& key : keys) choices.push_back({{"required", Json::array({key})}});
+  return {{"oneOf", choices}};
+}
+
+Json at_most_one_schema(const std::vector<std::string>& keys) {
+  Json pairs = Json::array();
+  for (std::size_t i = 0; i < keys.size(); ++i)
+    for (std::size_t j = i + 1; j < keys.size(); ++j)
+      pairs.push_back({{"required", Json::array({keys[i], keys[j]})}});
+  return {{"not", {{"anyOf", pairs}}}};
+}
+
+Json field_schema(const FieldInfo& field) {
+  Json schema = field.schema;
+  schema["description"] = fmt::format("{} ({})", field.doc, field.kind);
+  if (field.default_value) schema["default"] = *field.default_value;
+  return schema;
+}
+
+/// The map's own `name`, when it can be shown.
+std::string own_name(const Node& map) {
+  const Node* name = map.find("name");
+  return name != nullptr && name->is_scalar() ? name->scalar : std::string();
+}
+
+}  // namespace
+
+Span Written::span() const { return node == nullptr ? Span{} : node->span; }
+
+Span Written::span_of(std::string_view key) const {
+  const Node* value = node == nullptr ? nullptr : node->find(key);
+  return value == nullptr ? span() : value->span;
+}
+
+bool Written::has(std::string_view key) const {
+  return node != nullptr && node->find(key) != nullptr;
+}
+
+std::string label_of(const TableInfo& info, const Node& map, const ReadContext& outer) {
+  const std::string name = own_name(map);
+  if (!name.empty()) return fmt::format("{} {}", info.name, in_backticks(name));
+  return outer.owner.empty() ? info.name : fmt::format("{} of {}", info.name, outer.owner);
+}
+
+bool check_keys(const TableInfo& info, const Node& map, const ReadContext& outer) {
+  if (!map.is_map()) {
+    ReadContext context{outer.diagnostics, outer.where.empty() ? info.name : outer.where};
+    report_wrong_type(map, context, "a map", "its keys are " + words_text(known_keys(info), "and"));
+    return false;
+  }
+  const std::string label = label_of(info, map, outer);
+  bool good = check_unknown_keys(info, map, label, outer.diagnostics);
+  good = check_missing_keys(info, map, label, outer.diagnostics) && good;
+  for (const KeyGroup& group : info.groups)
+    good = check_group(group, map, label, outer.diagnostics) && good;
+  return good;
+}
+
+ReadContext field_context(const TableInfo& info, const std::string& key, const Node& map,
+                          const ReadContext& outer) {
+  const std::string label = label_of(info, map, outer);
+  // A name that is at fault should not also be what its owner is called.
+  const std::string where = fmt::format("`{}` of {}", key, key == "name" ? info.name : label);
+  // The document owns everything; saying so in every message would help nobody.
+  return {outer.diagnostics, where, outer.where.empty() ? std::string() : label};
+}
+
+void add_group(TableInfo& info, KeyGroup group) {
+  for (const std::string& key : group.keys) {
+    const FieldInfo* field = find_field(info, key);
+    if (field == nullptr || field->required)
+      throw std::logic_error("table " + info.name + ": " + key + " is not an optional field");
+  }
+  info.groups.push_back(std::move(group));
+}
+
+void leave_out_excluded(const TableInfo& info, Json& written) {
+  const auto is_written = [&](const std::string& key) { return written.contains(key); };
+  for (const KeyGroup& group : info.groups) {
+    if (std::count_if(group.keys.begin(), group.keys.end(), is_written) < 2) continue;
+    for (const std::string& key : group.keys) {
+      const FieldInfo& field = *find_field(info, key);
+      if (is_written(key) && field.default_value == written[key]) written.erase(key);
+    }
+  }
+}
+
+Json schema_of(const TableInfo& info) {
+  Json schema = {{"type", "object"}, {"description", info.doc}, {"properties", Json::object()}};
+  Json required_keys = Json::array();
+  for (const FieldInfo& field : info.fields) {
+    schema["properties"][field.key] = field_schema(field);
+    if (field.required) required_keys.push_back(field.key);
+  }
+  if (!required_keys.empty()) schema["required"] = required_keys;
+  schema["additionalProperties"] = false;
+  for (const KeyGroup& group : info.groups)
+    schema["allOf"].push_back(group.required ? exactly_one_schema(group.keys)
+                                             : at_most_one_schema(group.keys));
+  return schema;
+}
+
+bool is_nothing(const Json& value) {
+  return value.is_null() || (value.is_string() && value.get_ref<const std::string&>().empty()) ||
+         (value.is_structured() && value.empty());
+}
+
+}  // namespace twincraft

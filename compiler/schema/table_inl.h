@@ -1,0 +1,113 @@
+// The typed half of field tables: members in, members out. Included by table.h alone.
+// Tested by tests/compiler/schema_test.cpp.
+#pragma once
+
+namespace twincraft {
+
+template <class T, class V>
+Field<T> required(std::string key, V T::*member, Kind<V> kind, std::string doc) {
+  Field<T> field;
+  field.info = {.key = std::move(key),
+                .doc = std::move(doc),
+                .kind = kind.text,
+                .required = true,
+                .schema = kind.schema,
+                .default_value = std::nullopt,
+                .tables = kind.tables};
+  field.access.read = [member, kind](const Node& node, ReadContext& context, T& into) {
+    std::optional<V> value = kind.read(node, context);
+    if (value) into.*member = std::move(*value);
+    return value.has_value();
+  };
+  field.access.write = [member, kind](const T& from) { return kind.write(from.*member); };
+  return field;
+}
+
+template <class T, class V>
+Field<T> optional(std::string key, V T::*member, Kind<V> kind, std::string doc) {
+  Field<T> field = required(std::move(key), member, std::move(kind), std::move(doc));
+  field.info.required = false;
+  const Json value = field.access.write(T{});
+  if (!is_nothing(value)) field.info.default_value = value;
+  return field;
+}
+
+template <class T>
+Table<T>::Table(std::string name, std::string doc, std::vector<Field<T>> fields)
+    : info_{.name = std::move(name), .doc = std::move(doc), .fields = {}, .groups = {}} {
+  for (Field<T>& field : fields) {
+    info_.fields.push_back(std::move(field.info));
+    access_.push_back(std::move(field.access));
+  }
+}
+
+template <class T>
+Table<T> Table<T>::exactly_one_of(std::vector<std::string> keys) && {
+  add_group(info_, {.keys = std::move(keys), .required = true});
+  return std::move(*this);
+}
+
+template <class T>
+Table<T> Table<T>::at_most_one_of(std::vector<std::string> keys) && {
+  add_group(info_, {.keys = std::move(keys), .required = false});
+  return std::move(*this);
+}
+
+template <class T>
+bool Table<T>::fill(T& value, const Node& node, const ReadContext& outer) const {
+  if constexpr (std::is_base_of_v<Written, T>) value.node = &node;
+  bool good = check_keys(info_, node, outer);
+  for (std::size_t i = 0; i < access_.size(); ++i) {
+    const std::string& key = info_.fields[i].key;
+    const Node* item = node.find(key);
+    if (item == nullptr) continue;
+    ReadContext context = field_context(info_, key, node, outer);
+    good = access_[i].read(*item, context, value) && good;
+  }
+  return good;
+}
+
+template <class T>
+T Table<T>::read(const Node& node, Diagnostics& diagnostics) const {
+  T value{};
+  fill(value, node, ReadContext{.diagnostics = diagnostics, .where = {}});
+  return value;
+}
+
+template <class T>
+std::optional<T> Table<T>::read_inside(const Node& node, const ReadContext& outer) const {
+  std::optional<T> value(std::in_place);
+  if (!fill(*value, node, outer)) return std::nullopt;
+  return value;
+}
+
+template <class T>
+Json Table<T>::schema() const {
+  return schema_of(info_);
+}
+
+template <class T>
+Json Table<T>::write(const T& value) const {
+  Json written = Json::object();
+  for (std::size_t i = 0; i < access_.size(); ++i) {
+    Json item = access_[i].write(value);
+    const FieldInfo& field = info_.fields[i];
+    if (field.required || !is_nothing(item)) written[field.key] = std::move(item);
+  }
+  leave_out_excluded(info_, written);
+  return written;
+}
+
+template <class T>
+Kind<T> object(const Table<T>& table) {
+  return {
+      .text = table.name(),
+      .schema = table.schema(),
+      .read = [&table](const Node& node,
+                       ReadContext& context) { return table.read_inside(node, context); },
+      .write = [&table](const T& value) { return table.write(value); },
+      .tables = {&table.info()},
+  };
+}
+
+}  // namespace twincraft

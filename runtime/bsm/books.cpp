@@ -1,0 +1,145 @@
+// See books.h. Tested by tests/runtime/bsm_test.cpp.
+#include "runtime/bsm/books.h"
+
+namespace twincraft::bsm {
+namespace {
+
+struct MovingElement {
+  double mass;
+  Vector3d r_EB, v_E, spin;  // [m], [m/s], [kg m^2/s] angular momentum about its own centre
+  double spin_energy;        // [J]
+};
+
+MovingElement moving(const MassElement& element, const LinkPose& pose, const LinkRate& rate) {
+  const Vector3d r_EL = pose.dcm_WL * element.r_EL_L;
+  const Vector3d omega_L = pose.dcm_WL.transpose() * rate.omega_LN_W;
+  const Vector3d spin_L = element.I_PntE_L * omega_L;
+  return {element.mass, pose.r_LB_W + r_EL, rate.v_LN_W + rate.omega_LN_W.cross(r_EL),
+          pose.dcm_WL * spin_L, 0.5 * omega_L.dot(spin_L)};
+}
+
+std::vector<MovingElement> moving_elements(Recursion& recursion, const Assembly& assembly,
+                                           std::span<const LinkRate> rates) {
+  std::vector<MovingElement> elements;
+  for (std::size_t i = 0; i < assembly.links.size(); ++i) {
+    for (const MassElement& element : assembly.links[i].elements) {
+      elements.push_back(moving(element, recursion.poses()[i], rates[i]));
+    }
+  }
+  return elements;
+}
+
+}  // namespace
+
+Totals sum_up(Recursion& recursion, const Assembly& assembly, std::span<const double> q_dot,
+              std::span<const double> rotor_speed) {
+  std::vector<LinkRate> rates(assembly.links.size());
+  recursion.rates(q_dot, rates);
+  const std::vector<MovingElement> elements = moving_elements(recursion, assembly, rates);
+
+  Totals totals;
+  for (const MovingElement& e : elements) {
+    totals.mass += e.mass;
+    totals.r_CB_B += e.mass * e.r_EB;
+    totals.momentum_B += e.mass * e.v_E;
+  }
+  totals.r_CB_B /= totals.mass;
+  const Vector3d v_C = totals.momentum_B / totals.mass;
+  for (const MovingElement& e : elements) {
+    const Vector3d v_EC = e.v_E - v_C;
+    const Vector3d H = (e.r_EB - totals.r_CB_B).cross(e.mass * v_EC) + e.spin;
+    totals.H_PntC_B += H;
+    totals.H_scale += H.norm();
+    totals.momentum_scale += e.mass * e.v_E.norm();
+    totals.kinetic += 0.5 * e.mass * v_EC.squaredNorm() + e.spin_energy;
+  }
+  // The elements carry a wheel's whole tensor at the mount's rate; its own spin comes on top.
+  for (std::size_t k = 0; k < assembly.rotors.size(); ++k) {
+    const Rotor& rotor = assembly.rotors[k];
+    const auto i = static_cast<std::size_t>(rotor.link);
+    const Vector3d axis = recursion.poses()[i].dcm_WL * rotor.axis_L;
+    const double spin = rotor.spin_inertia * rotor_speed[k];
+    totals.H_PntC_B += spin * axis;
+    totals.H_scale += std::abs(spin);
+    totals.kinetic += spin * (axis.dot(rates[i].omega_LN_W) + 0.5 * rotor_speed[k]);
+  }
+  return totals;
+}
+
+void fill_books(const Totals& totals, const Matrix3d& dcm_NB, Observation& o) {
+  o.mass = totals.mass;
+  o.r_CN_N = o.r_BN_N + dcm_NB * totals.r_CB_B;
+  o.v_CN_N = o.v_BN_N + dcm_NB * (totals.momentum_B / totals.mass);
+  o.momentum = totals.mass * o.v_CN_N;
+  o.H_PntC_N = dcm_NB * totals.H_PntC_B;
+  o.kinetic = 0.5 * totals.mass * o.v_CN_N.squaredNorm() + totals.kinetic;
+  o.momentum_scale = totals.momentum_scale + totals.mass * o.v_BN_N.norm();
+  o.H_scale = totals.H_scale;
+}
+
+double spring_energy(const Tree& tree, std::span<const double> q) {
+  double energy = 0.0;
+  for (std::size_t i = 1; i < tree.links.size(); ++i) {
+    const double stretch = q[i - 1] - tree.links[i].rest;
+    energy += 0.5 * tree.links[i].stiffness * stretch * stretch;
+  }
+  return energy;
+}
+
+double joint_power(const Tree& tree, std::span<const double> q_dot,
+                   std::span<const double> effort) {
+  double power = 0.0;
+  for (std::size_t i = 1; i < tree.links.size(); ++i) {
+    power += (effort[i - 1] - tree.links[i].damping * q_dot[i - 1]) * q_dot[i - 1];
+  }
+  return power;
+}
+
+double motor_power(std::span<const double> rotor_speed, std::span<const double> torque) {
+  double power = 0.0;
+  for (std::size_t k = 0; k < torque.size(); ++k) power += torque[k] * rotor_speed[k];
+  return power;
+}
+
+Eigen::MatrixXd dense_mass_matrix(Recursion& recursion, const Matrix3d& dcm_NB) {
+  const Tree& tree = recursion.tree();
+  const auto links = static_cast<Eigen::Index>(tree.links.size());
+  const auto rotors = static_cast<Eigen::Index>(tree.rotors.size());
+  const Eigen::Index n = 5 + links + rotors;
+  using Partial = Eigen::Matrix<double, 3, Eigen::Dynamic>;
+
+  // Partial velocities of every link in hub axes: columns v_B, omega, joints, wheels.
+  std::vector<Partial> omega(tree.links.size(), Partial::Zero(3, n));
+  std::vector<Partial> v(tree.links.size(), Partial::Zero(3, n));
+  v.front().leftCols<3>() = dcm_NB.transpose();
+  omega.front().middleCols<3>(3).setIdentity();
+  for (Eigen::Index i = 1; i < links; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    const LinkConstants& link = tree.links[k];
+    const auto p = static_cast<std::size_t>(link.parent);
+    const Vector3d d = recursion.poses()[k].r_LB_W - recursion.poses()[p].r_LB_W;
+    const Vector3d axis = recursion.poses()[p].dcm_WL * link.axis_P;
+    omega[k] = omega[p];
+    v[k] = v[p] - tilde(d) * omega[p];
+    (link.kind == JointKind::kHinge ? omega : v)[k].col(5 + i) += axis;
+  }
+
+  Eigen::MatrixXd M = Eigen::MatrixXd::Zero(n, n);
+  for (std::size_t i = 0; i < tree.links.size(); ++i) {
+    const LinkConstants& link = tree.links[i];
+    const Matrix3d& dcm = recursion.poses()[i].dcm_WL;
+    const Eigen::MatrixXd coupling = omega[i].transpose() * tilde(dcm * link.first_moment) * v[i];
+    M += link.mass * v[i].transpose() * v[i] + coupling + coupling.transpose() +
+         omega[i].transpose() * link.J_L.turned(dcm).full() * omega[i];
+  }
+  for (Eigen::Index k = 0; k < rotors; ++k) {
+    const RotorConstants& rotor = tree.rotors[static_cast<std::size_t>(k)];
+    const auto i = static_cast<std::size_t>(rotor.link);
+    Eigen::RowVectorXd spin = (recursion.poses()[i].dcm_WL * rotor.axis_L).transpose() * omega[i];
+    spin[5 + links + k] += 1.0;
+    M += rotor.spin_inertia * spin.transpose() * spin;
+  }
+  return M;
+}
+
+}  // namespace twincraft::bsm

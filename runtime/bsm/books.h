@@ -1,0 +1,35 @@
+// What the analytic engine reports of itself: momenta, energies, and the mass matrix for proofs.
+// Nothing here runs inside a step. Tested by tests/runtime/bsm_test.cpp.
+#pragma once
+
+#include "runtime/bsm/recursion.h"
+#include "runtime/observation.h"
+
+namespace twincraft::bsm {
+
+/// Sums over all mass elements and rotors, in hub axes, with the velocity of B taken as zero.
+struct Totals {
+  double mass = 0.0;                           // [kg]
+  Vector3d r_CB_B = Vector3d::Zero();          // [m]
+  Vector3d momentum_B = Vector3d::Zero();      // [kg m/s] relative to B
+  Vector3d H_PntC_B = Vector3d::Zero();        // [kg m^2/s] about C
+  double kinetic = 0.0;                        // [J] about C: without m v_C^2 / 2
+  double momentum_scale = 0.0, H_scale = 0.0;  // sums of magnitudes
+};
+
+/// @pre recursion.move() was called for this instant
+Totals sum_up(Recursion& recursion, const Assembly& assembly, std::span<const double> q_dot,
+              std::span<const double> rotor_speed);
+
+/// Centre of mass, momenta and kinetic energy in N; needs o.r_BN_N and o.v_BN_N.
+void fill_books(const Totals& totals, const Matrix3d& dcm_NB, Observation& o);
+
+double spring_energy(const Tree& tree, std::span<const double> q);  // [J]
+/// Efforts less what the dampers take [W].
+double joint_power(const Tree& tree, std::span<const double> q_dot, std::span<const double> effort);
+double motor_power(std::span<const double> rotor_speed, std::span<const double> torque);  // [W]
+
+/// Over (v_B in N, omega in B, qDot, wheel speeds), summed from partial velocities.
+Eigen::MatrixXd dense_mass_matrix(Recursion& recursion, const Matrix3d& dcm_NB);
+
+}  // namespace twincraft::bsm

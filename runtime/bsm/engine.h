@@ -1,0 +1,13 @@
+// The analytic engine: back-substitution as a recursion over the tree. See recursion.h for the
+// equations. Tested by tests/runtime/bsm_test.cpp and the component battery.
+#pragma once
+
+#include <memory>
+
+#include "runtime/engine.h"
+
+namespace twincraft {
+
+std::unique_ptr<Engine> make_bsm_engine(const Model& model);
+
+}  // namespace twincraft

@@ -1,0 +1,47 @@
+// The one interface of both engines: (t, state) to a derivative. An engine is built from a compiled
+// model and owns all its workspace; a derivative never allocates.
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <stdexcept>
+#include <string_view>
+
+#include "runtime/observation.h"
+#include "runtime/state.h"
+
+namespace twincraft {
+
+/// An engine can not go on: a non-finite state, an engine's own error. Says which coordinate.
+struct NumericalFailure : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+class Engine {
+ public:
+  virtual ~Engine() = default;
+
+  virtual std::string_view name() const = 0;  // "bsm", "mujoco"
+  virtual const StateLayout& layout() const = 0;
+
+  /// The state of the model at t = 0.
+  virtual Eigen::VectorXd initial_state() const = 0;
+
+  /// Hold all scheduled inputs (efforts, motors, loads) at their values of `time` [s] until the
+  /// next call. The propagator calls it at t = 0 and at every event.
+  virtual void hold_inputs(double time) = 0;
+
+  /// rate = d(state)/dt at `time`. Both have layout().size() entries and do not overlap.
+  virtual void derivative(double time, std::span<const double> state, std::span<double> rate) = 0;
+
+  /// After an accepted step: MRP shadow switch or quaternion normalisation, in place.
+  virtual void finish_step(std::span<double> state) = 0;
+
+  virtual Observation observe(double time, std::span<const double> state) = 0;
+  virtual ExternalRates external_rates(double time, std::span<const double> state) = 0;
+
+  /// The mass matrix over (v_B in N, omega in B, joint rates, wheel rates), for proofs.
+  virtual Eigen::MatrixXd mass_matrix(std::span<const double> state) = 0;
+};
+
+}  // namespace twincraft

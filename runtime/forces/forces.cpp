@@ -1,0 +1,162 @@
+// See forces.h. Tested by tests/runtime/forces_test.cpp.
+#include "runtime/forces/forces.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace twincraft {
+namespace {
+
+bool is_per_body(GravityLaw law) {
+  return law == GravityLaw::kBodyCom || law == GravityLaw::kBodyGradient;
+}
+
+Vector3d value_at(const std::array<Schedule, 3>& schedules, double time) {
+  return {schedules[0].at(time), schedules[1].at(time), schedules[2].at(time)};
+}
+
+void add(Wrench& wrench, const Vector3d& r_FB_W, const Vector3d& force_W,
+         const Vector3d& torque_W) {
+  wrench.force_W += force_W;
+  wrench.torque_PntB_W += torque_W + r_FB_W.cross(force_W);
+}
+
+}  // namespace
+
+Vector3d point_gravity(double mu, const Vector3d& r) {
+  const double r2 = r.squaredNorm();
+  return r * (-mu / (r2 * std::sqrt(r2)));
+}
+
+Vector3d gravity_difference(double mu, const Vector3d& r, const Vector3d& x) {
+  const double r2 = r.squaredNorm();
+  const double q = x.dot(x + 2.0 * r) / r2;  // |r + x|^2 = r^2 (1 + q)
+  const double s3 = (1.0 + q) * std::sqrt(1.0 + q);
+  // 1 - (1 + q)^(-3/2), as a quotient that keeps all digits of a small q.
+  const double shrink = q * (3.0 + q * (3.0 + q)) / (s3 * (s3 + 1.0));
+  return (-mu / (r2 * std::sqrt(r2))) * (x - shrink * (r + x));
+}
+
+ForceModel::ForceModel(const Model& model, GravityLaw law,
+                       const std::vector<std::vector<MassElement>>& elements, FieldFrame frame)
+    : mu_(model.gravity.mu), law_(law), frame_(frame), gravity_acts_(false), loads_(model.loads) {
+  for (std::size_t link = 0; link < elements.size(); ++link) {
+    for (const MassElement& element : elements[link]) {
+      if (element.mass <= 0.0) continue;
+      elements_.push_back({static_cast<int>(link), element.mass, element.r_EL_L, element.I_PntE_L});
+      mass_ += element.mass;
+    }
+  }
+  const bool all_at_hub_origin =
+      std::all_of(elements_.begin(), elements_.end(),
+                  [](const Element& e) { return e.link == 0 && e.r_EL_L.isZero(0.0); });
+  gravity_acts_ = law == GravityLaw::kBodyGradient ||
+                  (law == GravityLaw::kBodyCom && !all_at_hub_origin) ||
+                  (law != GravityLaw::kNone && frame == FieldFrame::kInertial);
+  acting_loads_.reserve(loads_.size());
+  hold(0.0);
+}
+
+void ForceModel::hold(double time) {
+  acting_loads_.clear();
+  for (const Load& load : loads_) {
+    const HeldLoad held{load.link, !load.r_FL_L.has_value(), value_at(load.force_L, time),
+                        value_at(load.torque_L, time), load.r_FL_L.value_or(Vector3d::Zero())};
+    if (!held.force_L.isZero(0.0) || !held.torque_L.isZero(0.0)) acting_loads_.push_back(held);
+  }
+}
+
+Vector3d ForceModel::center_of_mass(std::span<const LinkPose> links) const {
+  Vector3d moment = Vector3d::Zero();
+  for (const Element& e : elements_) {
+    const LinkPose& pose = links[static_cast<std::size_t>(e.link)];
+    moment += e.mass * (pose.r_LB_W + pose.dcm_WL * e.r_EL_L);
+  }
+  return moment / mass_;
+}
+
+/// Hughes, Spacecraft Attitude Dynamics: 3 mu/r^3 rhat x (I rhat), about the element's own centre.
+Vector3d ForceModel::gradient_torque(const Element& element, const Vector3d& r_EN_W,
+                                     const Matrix3d& dcm_WL) const {
+  const Vector3d r_EN_L = dcm_WL.transpose() * r_EN_W;
+  const double r2 = r_EN_L.squaredNorm();
+  const Vector3d torque_L = r_EN_L.cross(element.I_PntE_L * r_EN_L);
+  return dcm_WL * (torque_L * (3.0 * mu_ / (r2 * r2 * std::sqrt(r2))));
+}
+
+void ForceModel::apply_gravity(const Vector3d& r_BN_W, std::span<const LinkPose> links,
+                               std::span<Wrench> wrenches) const {
+  const bool uniform = law_ == GravityLaw::kSystemCom;
+  const Vector3d g_system =
+      uniform ? point_gravity(mu_, r_BN_W + center_of_mass(links)) : Vector3d::Zero();
+  for (const Element& e : elements_) {
+    const auto link = static_cast<std::size_t>(e.link);
+    const Vector3d r_EB_W = links[link].r_LB_W + links[link].dcm_WL * e.r_EL_L;
+    Vector3d g = g_system;
+    if (!uniform) {
+      g = frame_ == FieldFrame::kFalling ? gravity_difference(mu_, r_BN_W, r_EB_W)
+                                         : point_gravity(mu_, r_BN_W + r_EB_W);
+    }
+    Vector3d torque = Vector3d::Zero();
+    if (law_ == GravityLaw::kBodyGradient) {
+      torque = gradient_torque(e, r_BN_W + r_EB_W, links[link].dcm_WL);
+    }
+    add(wrenches[link], r_EB_W, e.mass * g, torque);
+  }
+}
+
+void ForceModel::apply_loads(std::span<const LinkPose> links, std::span<Wrench> wrenches) const {
+  for (const HeldLoad& load : acting_loads_) {
+    const auto link = static_cast<std::size_t>(load.link);
+    const LinkPose& pose = links[link];
+    const Vector3d r_FB_W =
+        load.at_system_com ? center_of_mass(links) : pose.r_LB_W + pose.dcm_WL * load.r_FL_L;
+    add(wrenches[link], r_FB_W, pose.dcm_WL * load.force_L, pose.dcm_WL * load.torque_L);
+  }
+}
+
+Vector3d ForceModel::apply(const Vector3d& r_BN_W, std::span<const LinkPose> links,
+                           std::span<Wrench> wrenches) const {
+  if (!is_idle()) {
+    std::fill(wrenches.begin(), wrenches.end(), Wrench{});
+    if (gravity_acts_) apply_gravity(r_BN_W, links, wrenches);
+    apply_loads(links, wrenches);
+  }
+  if (law_ == GravityLaw::kNone || frame_ == FieldFrame::kInertial) return Vector3d::Zero();
+  if (is_per_body(law_)) return point_gravity(mu_, r_BN_W);
+  return point_gravity(mu_, r_BN_W + center_of_mass(links));
+}
+
+double ForceModel::potential(const Vector3d& r_BN_W, std::span<const LinkPose> links) const {
+  if (law_ == GravityLaw::kNone) return 0.0;
+  if (!is_per_body(law_)) return -mu_ * mass_ / (r_BN_W + center_of_mass(links)).norm();
+  double sum = 0.0;
+  for (const Element& e : elements_) {
+    const LinkPose& pose = links[static_cast<std::size_t>(e.link)];
+    sum -= mu_ * e.mass / (r_BN_W + pose.r_LB_W + pose.dcm_WL * e.r_EL_L).norm();
+  }
+  return sum;
+}
+
+double ForceModel::power(const Vector3d& r_BN_W, std::span<const LinkPose> links,
+                         std::span<const LinkRate> rates) const {
+  double sum = 0.0;
+  for (const HeldLoad& load : acting_loads_) {
+    const auto link = static_cast<std::size_t>(load.link);
+    const LinkPose& pose = links[link];
+    const Vector3d r_FL_W = load.at_system_com ? (center_of_mass(links) - pose.r_LB_W).eval()
+                                               : (pose.dcm_WL * load.r_FL_L).eval();
+    const Vector3d v_F = rates[link].v_LN_W + rates[link].omega_LN_W.cross(r_FL_W);
+    sum += (pose.dcm_WL * load.force_L).dot(v_F) +
+           (pose.dcm_WL * load.torque_L).dot(rates[link].omega_LN_W);
+  }
+  if (law_ != GravityLaw::kBodyGradient) return sum;
+  for (const Element& e : elements_) {
+    const auto link = static_cast<std::size_t>(e.link);
+    const Vector3d r_EN_W = r_BN_W + links[link].r_LB_W + links[link].dcm_WL * e.r_EL_L;
+    sum += gradient_torque(e, r_EN_W, links[link].dcm_WL).dot(rates[link].omega_LN_W);
+  }
+  return sum;
+}
+
+}  // namespace twincraft

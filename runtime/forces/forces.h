@@ -1,0 +1,101 @@
+// Gravity and loads: one source for both engines. The engine says where its links are, in whatever
+// axes W it works in (B for the analytic engine, N for MuJoCo); this room answers with a wrench on
+// each link about the hub origin B.
+//
+// In the falling frame the hub's own gravitational acceleration g(r_B) is not applied as forces
+// but returned, and the elements feel only the difference g(r_i) - g(r_B), evaluated without
+// cancellation (Battin's form). A uniform field then leaves no rounding in the joints.
+// Tested by tests/runtime/forces_test.cpp.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "compiler/ir/model.h"
+
+namespace twincraft {
+
+struct LinkPose {
+  Matrix3d dcm_WL;  // link to working axes
+  Vector3d r_LB_W;  // [m] link origin from the hub origin
+};
+
+/// How a link moves: its inertial rate, and the inertial velocity of its own origin.
+struct LinkRate {
+  Vector3d omega_LN_W;  // [rad/s]
+  Vector3d v_LN_W;      // [m/s]
+};
+
+struct Wrench {
+  Vector3d force_W = Vector3d::Zero();        // [N]
+  Vector3d torque_PntB_W = Vector3d::Zero();  // [N m]
+};
+
+enum class FieldFrame { kFalling, kInertial };
+
+class ForceModel {
+ public:
+  /// @param elements  what gravity pulls on, per link; those without mass are left out
+  ForceModel(const Model& model, GravityLaw law,
+             const std::vector<std::vector<MassElement>>& elements, FieldFrame frame);
+
+  /// Hold the loads at their values of `time` [s].
+  void hold(double time);
+
+  /// No link feels anything now: apply() leaves the wrenches as they are. Gravity may still make
+  /// the vehicle fall as a whole.
+  bool is_idle() const { return !gravity_acts_ && acting_loads_.empty(); }
+
+  /// Not even that: apply() is not worth calling.
+  bool is_silent() const { return law_ == GravityLaw::kNone && is_idle(); }
+
+  /// Set the wrench of every link, unless idle. @return the common acceleration [m/s^2] of the
+  /// falling frame in W, to be added to the hub's; zero in the inertial frame or without gravity.
+  Vector3d apply(const Vector3d& r_BN_W, std::span<const LinkPose> links,
+                 std::span<Wrench> wrenches) const;
+
+  /// Of gravity [J]: -sum mu m/r; of the total mass at C for kSystemCom.
+  double potential(const Vector3d& r_BN_W, std::span<const LinkPose> links) const;
+
+  /// Of what has no potential [W]: loads and gravity-gradient torques.
+  double power(const Vector3d& r_BN_W, std::span<const LinkPose> links,
+               std::span<const LinkRate> rates) const;
+
+ private:
+  struct Element {
+    int link;
+    double mass;
+    Vector3d r_EL_L;
+    Matrix3d I_PntE_L;
+  };
+  struct HeldLoad {
+    int link;
+    bool at_system_com;
+    Vector3d force_L, torque_L, r_FL_L;
+  };
+
+  Vector3d center_of_mass(std::span<const LinkPose> links) const;  // r_CB_W
+  Vector3d gradient_torque(const Element& element, const Vector3d& r_EN_W,
+                           const Matrix3d& dcm_WL) const;
+  void apply_gravity(const Vector3d& r_BN_W, std::span<const LinkPose> links,
+                     std::span<Wrench> wrenches) const;
+  void apply_loads(std::span<const LinkPose> links, std::span<Wrench> wrenches) const;
+
+  double mu_;
+  GravityLaw law_;
+  FieldFrame frame_;
+  bool gravity_acts_;  // links feel more than the common fall
+  std::vector<Element> elements_;
+  double mass_ = 0.0;
+  std::vector<Load> loads_;
+  std::vector<HeldLoad> acting_loads_;  // capacity for all: hold() does not allocate
+};
+
+/// g(r) of a point mass [m/s^2].
+Vector3d point_gravity(double mu, const Vector3d& r);
+
+/// g(r + x) - g(r) without the cancellation of subtracting them (Battin's form): relative error at
+/// rounding level for any |x| < |r|.
+Vector3d gravity_difference(double mu, const Vector3d& r, const Vector3d& x);
+
+}  // namespace twincraft

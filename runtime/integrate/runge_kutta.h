@@ -1,0 +1,105 @@
+// The one stepper of both engines: any explicit Runge-Kutta tableau on a flat state vector.
+// A tableau's zeros are dropped once, at construction; a step then is its evaluations and one pass
+// over the state per stage, without allocation. The sum of all steps is compensated (Kahan), so
+// that rounding does not grow with their number. Every entry of the state goes through the same
+// operations whatever its neighbours are, so quadratures appended behind a state leave its
+// trajectory bitwise unchanged.  Tested by tests/runtime/runge_kutta_test.cpp.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <span>
+#include <vector>
+
+#include "runtime/integrate/tableau.h"
+
+namespace twincraft {
+
+/// What is stepped: y' = f(t, y), and a touch-up of y after each accepted step.
+class Ode {
+ public:
+  virtual ~Ode() = default;
+  virtual int size() const = 0;
+  virtual void derivative(double time, std::span<const double> state, std::span<double> rate) = 0;
+  virtual void finish_step(std::span<double> state) = 0;
+};
+
+class RungeKutta {
+ public:
+  /// `tableau` and `ode` must outlive the stepper; the state starts at zero.
+  RungeKutta(const Tableau& tableau, Ode& ode);
+
+  const Tableau& tableau() const { return tableau_; }
+  std::span<double> state() { return {state_.value.data(), static_cast<std::size_t>(size_)}; }
+
+  /// Advance state() from `time` to `time + h` [s] by one step.
+  void step(double time, double h);
+
+  /// The same with an embedded pair, but state() stays: proposal() is the solution to propagate
+  /// and error() its difference from the comparison solution. accept() makes the proposal the
+  /// state.
+  void attempt(double time, double h);
+  void accept();
+  std::span<const double> proposal() const { return entries(proposal_.value); }
+  std::span<const double> error() const { return entries(error_); }
+
+  bool state_is_finite() const { return is_finite(state_.value); }
+  bool proposal_is_finite() const { return is_finite(proposal_.value); }
+
+  /// After a step whose result is not finite: the entry that failed first, by stage.
+  int first_non_finite() const;
+
+ private:
+  // A state and what is still to be added to it: too small for its last digit.
+  struct Solution {
+    Eigen::VectorXd value;
+    Eigen::VectorXd carry;
+  };
+
+  // h * sum of coefficient * stage, over the non-zero coefficients only, added to a base.
+  struct WeightedSum {
+    std::array<double, Tableau::kMaxStages> coefficient{};
+    std::array<Eigen::Index, Tableau::kMaxStages> offset{};  // of the stage in stages_
+    Eigen::Index padded_size = 0;
+
+    // result = base + h * sum
+    using Add = void (*)(const WeightedSum&, double h, const double* stages, const double* base,
+                         double* result);
+    Add add = nullptr;
+    // The same with what rounding took away from earlier sums; result may be base.
+    using AddTo = void (*)(const WeightedSum&, double h, const double* stages, const Solution& base,
+                           Solution& result);
+    AddTo add_compensated = nullptr;
+  };
+
+  template <int kTerms>
+  class Terms;
+  template <int kTerms>
+  static void add(const WeightedSum& sum, double h, const double* stages, const double* base,
+                  double* result);
+  template <int kTerms>
+  static void add_compensated(const WeightedSum& sum, double h, const double* stages,
+                              const Solution& base, Solution& result);
+  WeightedSum weighted_sum(const Tableau::Row& coefficients) const;
+  void evaluate_stages(double time, double h);
+  std::span<const double> entries(const Eigen::VectorXd& padded) const {
+    return {padded.data(), static_cast<std::size_t>(size_)};
+  }
+  static bool is_finite(const Eigen::VectorXd& padded);
+
+  const Tableau& tableau_;
+  Ode& ode_;
+  int size_;
+  Eigen::Index padded_size_;  // every vector is zero-padded to whole lanes
+  std::vector<WeightedSum> stage_sums_;
+  WeightedSum solution_sum_;
+  WeightedSum error_sum_;
+  Eigen::VectorXd stages_;  // k_i, one after another
+  Eigen::VectorXd trial_;
+  Solution state_;
+  Solution proposal_;
+  Eigen::VectorXd error_;
+  Eigen::VectorXd zero_;
+};
+
+}  // namespace twincraft

@@ -1,0 +1,390 @@
+// Decides how the shared state is handed to MuJoCo and how its accelerations are taken back.
+//
+// Only the stages that matter are called: no contacts, constraints, sensors or actuation; motor
+// torques and joint efforts go straight into the force vector. In the co-moving frame MuJoCo sees
+// the hub's origin at rest at zero and the hub's axes along the world's: accelerations do not
+// depend on a common velocity or attitude, and two kinds of rounding are gone. Kilometres per
+// second leave m v^2 in MuJoCo's bias forces; a fast wheel leaves Js Omega^2 there unless its axis
+// lies along a world axis, as those of most wheels lie along a hub axis. A wheel is always handed
+// over at angle zero: it is balanced, so its angle changes neither mass nor inertia, and none is
+// integrated.
+// Tested by tests/runtime/mujoco_test.cpp.
+#include "runtime/mujoco/engine.h"
+
+#include <fmt/format.h>
+#include <mujoco/mujoco.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "compiler/ir/number.h"
+#include "runtime/forces/forces.h"
+#include "runtime/mujoco/handles.h"
+#include "runtime/mujoco/motion_sums.h"
+#include "runtime/mujoco/tree_map.h"
+#include "runtime/mujoco/wrenches.h"
+
+namespace twincraft {
+namespace {
+
+using Input = Eigen::Map<const Vector3d>;
+using Output = Eigen::Map<Vector3d>;
+
+StateLayout layout_of(const Model& model) {
+  return StateLayout{.chart = AttitudeChart::kQuaternion,
+                     .joints = static_cast<int>(model.assembly.links.size()) - 1,
+                     .wheels = static_cast<int>(model.assembly.rotors.size())};
+}
+
+MujocoModel load(const Model& model, const std::string& mjcf) {
+  MujocoModel loaded = load_mjcf(mjcf);
+  restore_exact_masses(model.tree, *loaded);
+  // Pictures and markers are for `simulate`; here mj_kinematics would only carry them along.
+  loaded->ngeom = 0;
+  loaded->nsite = 0;
+  return loaded;
+}
+
+/// How the hub is placed in MuJoCo's world for an evaluation.
+enum class Placement {
+  kAligned,  // at rest at zero, its axes along the world's: the co-moving frame
+  kCentred,  // at rest at zero, with its true attitude: for observations in N
+  kRaw,      // as it is: the inertial frame of the paper
+};
+
+Placement placement_of(MujocoFrame frame) {
+  return frame == MujocoFrame::kComoving ? Placement::kAligned : Placement::kRaw;
+}
+
+FieldFrame field_frame(MujocoFrame frame) {
+  return frame == MujocoFrame::kComoving ? FieldFrame::kFalling : FieldFrame::kInertial;
+}
+
+/// Body to N components; a quaternion within a step is read as if normalised.
+Matrix3d dcm_of(const double* q) {
+  return Quaterniond(q[0], q[1], q[2], q[3]).normalized().toRotationMatrix();
+}
+
+// qDot = 1/2 q (x) (0, omega_BN_B), scalar first.
+void write_quaternion_rate(const double* q, const double* omega, double* rate) {
+  const double w = 0.5 * q[0], x = 0.5 * q[1], y = 0.5 * q[2], z = 0.5 * q[3];
+  rate[0] = -x * omega[0] - y * omega[1] - z * omega[2];
+  rate[1] = w * omega[0] + y * omega[2] - z * omega[1];
+  rate[2] = w * omega[1] + z * omega[0] - x * omega[2];
+  rate[3] = w * omega[2] + x * omega[1] - y * omega[0];
+}
+
+class MujocoEngine final : public Engine {
+ public:
+  MujocoEngine(const Model& model, const std::string& mjcf);
+
+  std::string_view name() const override { return "mujoco"; }
+  const StateLayout& layout() const override { return layout_; }
+  Eigen::VectorXd initial_state() const override;
+  void hold_inputs(double time) override;
+  void derivative(double time, std::span<const double> state, std::span<double> rate) override;
+  void finish_step(std::span<double> state) override;
+  Observation observe(double time, std::span<const double> state) override;
+  ExternalRates external_rates(double time, std::span<const double> state) override;
+  Eigen::MatrixXd mass_matrix(std::span<const double> state) override;
+
+ private:
+  void hand_over(const double* state, Placement placement);
+  double take_back(const double* state, const Vector3d& a_BN_N, double* rate) const;
+  [[noreturn]] void fail(double time, std::span<const double> state, std::span<const double> rate);
+  std::string coordinate_name(int index) const;
+  MotionSums move_to(std::span<const double> state);
+  void gather_poses();
+  void gather_rates(const Vector3d& v_BN_N);
+  Vector3d project_forces(const Vector3d& r_BN_W);
+  double spring_energy() const;
+  double joint_power() const;
+
+  Assembly assembly_;
+  InitialState initial_;
+  Placement placement_;
+  GravityLaw law_;
+  StateLayout layout_;
+  MujocoModel model_;
+  MujocoData data_;
+  TreeMap map_;
+  WrenchProjector projector_;
+  ForceModel forces_;
+  std::vector<double> inputs_;   // held efforts and motor torques, per MuJoCo dof
+  std::vector<double> applied_;  // inputs and projected wrenches
+  std::vector<LinkPose> poses_;
+  std::vector<Wrench> wrenches_;
+  std::vector<LinkRate> link_rates_;
+};
+
+MujocoEngine::MujocoEngine(const Model& model, const std::string& mjcf)
+    : assembly_(model.assembly),
+      initial_(model.initial),
+      placement_(placement_of(model.engines.frame)),
+      law_(model.gravity.mujoco),
+      layout_(layout_of(model)),
+      model_(load(model, mjcf)),
+      data_(make_data(*model_)),
+      map_(map_tree(model, *model_)),
+      projector_(*model_, map_),
+      forces_(model, law_, gravity_elements(model), field_frame(model.engines.frame)),
+      inputs_(static_cast<std::size_t>(model_->nv)),
+      applied_(inputs_.size()),
+      poses_(model.assembly.links.size()),
+      wrenches_(poses_.size()),
+      link_rates_(poses_.size()) {
+  hold_inputs(0.0);
+}
+
+Eigen::VectorXd MujocoEngine::initial_state() const {
+  const auto entries = [](const std::vector<double>& values) {
+    return Eigen::VectorXd::Map(values.data(), static_cast<Eigen::Index>(values.size()));
+  };
+  const Quaterniond& q = initial_.q_BN;
+  Eigen::VectorXd state(layout_.size());
+  state << initial_.r_BN_N, initial_.v_BN_N, q.w(), q.x(), q.y(), q.z(), initial_.omega_BN_B,
+      entries(initial_.joint_position), entries(initial_.joint_rate), entries(initial_.rotor_speed);
+  return state;
+}
+
+void MujocoEngine::hold_inputs(double time) {
+  double* inputs = inputs_.data();
+  for (std::size_t i = 0; i < map_.joint_dof.size(); ++i) {
+    inputs[map_.joint_dof[i]] = assembly_.links[i + 1].joint.effort.at(time);
+  }
+  for (std::size_t i = 0; i < map_.wheel_dof.size(); ++i) {
+    inputs[map_.wheel_dof[i]] = assembly_.rotors[i].torque.at(time);
+  }
+  forces_.hold(time);
+}
+
+void MujocoEngine::derivative(double time, std::span<const double> state, std::span<double> rate) {
+  const mjModel* m = model_.get();
+  mjData* d = data_.get();
+  const Matrix3d dcm_NW = placement_ == Placement::kAligned
+                              ? dcm_of(state.data() + StateLayout::attitude())
+                              : Matrix3d::Identity();
+  hand_over(state.data(), placement_);
+  mj_kinematics(m, d);
+  mj_comPos(m, d);
+  const double* applied = inputs_.data();
+  Vector3d fall_W = Vector3d::Zero();
+  if (law_ != GravityLaw::kNone || !forces_.is_idle()) {
+    fall_W = project_forces(dcm_NW.transpose() * Input(state.data() + StateLayout::position()));
+    applied = applied_.data();
+  }
+  mj_crb(m, d);
+  mj_factorM(m, d);
+  mj_comVel(m, d);
+  mj_passive(m, d);
+  mj_rne(m, d, 0, d->qfrc_bias);
+  for (int i = 0; i < m->nv; ++i) d->qacc[i] = d->qfrc_passive[i] - d->qfrc_bias[i] + applied[i];
+  mj_solveM(m, d, d->qacc, d->qacc, 1);
+  const double sum = take_back(state.data(), dcm_NW * (Input(d->qacc) + fall_W), rate.data());
+  // A singular mass matrix only warns, and MuJoCo goes on with a made-up pivot.
+  if (!std::isfinite(sum) || d->warning[mjWARN_INERTIA].number > 0) fail(time, state, rate);
+}
+
+// MuJoCo normalises the quaternion in place, which is not idempotent in the last bit, so everything
+// is copied anew before every evaluation.
+void MujocoEngine::hand_over(const double* state, Placement placement) {
+  static constexpr double kIdentity[4] = {1.0, 0.0, 0.0, 0.0};
+  double* qpos = data_->qpos;
+  double* qvel = data_->qvel;
+  const bool raw = placement == Placement::kRaw;
+  for (int i = 0; i < 3; ++i) {
+    qpos[i] = raw ? state[StateLayout::position() + i] : 0.0;
+    qvel[i] = raw ? state[StateLayout::velocity() + i] : 0.0;
+    qvel[3 + i] = state[layout_.rate() + i];
+  }
+  const bool aligned = placement == Placement::kAligned;
+  std::copy_n(aligned ? kIdentity : state + StateLayout::attitude(), 4, qpos + 3);
+  for (int i = 0; i < layout_.joints; ++i) {
+    qpos[map_.joint_qpos.data()[i]] = state[layout_.joint() + i];
+    qvel[map_.joint_dof.data()[i]] = state[layout_.joint_rate() + i];
+  }
+  for (int i = 0; i < layout_.wheels; ++i) {
+    qvel[map_.wheel_dof.data()[i]] = state[layout_.wheel() + i];
+  }
+}
+
+// @return a sum that is finite only if every acceleration is
+double MujocoEngine::take_back(const double* state, const Vector3d& a_BN_N, double* rate) const {
+  const double* qacc = data_->qacc;
+  double sum = 0.0;
+  for (int i = 0; i < 3; ++i) {
+    rate[StateLayout::position() + i] = state[StateLayout::velocity() + i];
+    sum += rate[StateLayout::velocity() + i] = a_BN_N[i];
+    sum += rate[layout_.rate() + i] = qacc[3 + i];
+  }
+  write_quaternion_rate(state + StateLayout::attitude(), state + layout_.rate(),
+                        rate + StateLayout::attitude());
+  for (int i = 0; i < layout_.joints; ++i) {
+    rate[layout_.joint() + i] = state[layout_.joint_rate() + i];
+    sum += rate[layout_.joint_rate() + i] = qacc[map_.joint_dof.data()[i]];
+  }
+  for (int i = 0; i < layout_.wheels; ++i) {
+    sum += rate[layout_.wheel() + i] = qacc[map_.wheel_dof.data()[i]];
+  }
+  return sum;
+}
+
+std::string MujocoEngine::coordinate_name(int index) const {
+  if (index < StateLayout::velocity()) return "hub position";
+  if (index < StateLayout::attitude()) return "hub velocity";
+  if (index < layout_.rate()) return "hub attitude";
+  if (index < layout_.joint()) return "hub rate";
+  const auto joint = [this](int i) {
+    return fmt::format("`{}`", assembly_.links[static_cast<std::size_t>(i + 1)].name);
+  };
+  if (index < layout_.joint_rate()) return joint(index - layout_.joint());
+  if (index < layout_.wheel()) return "rate of " + joint(index - layout_.joint_rate());
+  const auto wheel = static_cast<std::size_t>(index - layout_.wheel());
+  return fmt::format("rate of `{}`", assembly_.rotors[wheel].name);
+}
+
+// One bad entry spoils all accelerations, so the state is searched for the culprit first.
+void MujocoEngine::fail(double time, std::span<const double> state, std::span<const double> rate) {
+  const auto bad = [](double value) { return !std::isfinite(value); };
+  const mjWarningStat singular = std::exchange(data_->warning[mjWARN_INERTIA], {});
+  std::string what;
+  if (const auto x = std::ranges::find_if(state, bad); x != state.end()) {
+    what = coordinate_name(static_cast<int>(x - state.begin())) + " is not finite";
+  } else if (singular.number > 0) {
+    const int joint = model_->dof_jntid[singular.lastinfo];
+    what = fmt::format("the mass matrix is singular at `{}`",
+                       mj_id2name(model_.get(), mjOBJ_JOINT, joint));
+  } else {
+    const auto r = std::ranges::find_if(rate, bad);
+    what = coordinate_name(static_cast<int>(r - rate.begin())) + " has a rate that is not finite";
+  }
+  throw NumericalFailure(fmt::format("mujoco: at t = {} s {}", shortest(time), what));
+}
+
+void MujocoEngine::finish_step(std::span<double> state) {
+  Eigen::Map<Eigen::Vector4d>(state.data() + StateLayout::attitude()).normalize();
+}
+
+void MujocoEngine::gather_poses() {
+  using Rotation = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>;
+  const Input r_BO_N(data_->xpos + 3 * kHubBody);
+  for (std::size_t i = 0; i < poses_.size(); ++i) {
+    const int body = map_.link_body[i];
+    poses_[i].dcm_WL = Rotation(data_->xmat + 9 * body);
+    poses_[i].r_LB_W = Input(data_->xpos + 3 * body) - r_BO_N;
+  }
+}
+
+// Sets applied_. @return the common acceleration of the falling frame
+Vector3d MujocoEngine::project_forces(const Vector3d& r_BN_W) {
+  gather_poses();
+  std::copy(inputs_.begin(), inputs_.end(), applied_.begin());
+  const Vector3d fall = forces_.apply(r_BN_W, poses_, wrenches_);
+  if (!forces_.is_idle()) projector_.add(*model_, *data_, wrenches_, applied_);
+  return fall;
+}
+
+// The vehicle at `state`, centred in any frame: what is observed is not what is tested.
+MotionSums MujocoEngine::move_to(std::span<const double> state) {
+  hand_over(state.data(), Placement::kCentred);
+  mj_kinematics(model_.get(), data_.get());
+  mj_comPos(model_.get(), data_.get());
+  mj_comVel(model_.get(), data_.get());
+  gather_poses();
+  return sum_motion(*model_, *data_, Input(state.data() + StateLayout::velocity()));
+}
+
+Observation MujocoEngine::observe(double time, std::span<const double> state) {
+  const MotionSums sums = move_to(state);
+  const double* x = state.data();
+  const double* q = x + StateLayout::attitude();
+  const auto entries = [x](int begin, int end) { return std::vector(x + begin, x + end); };
+  Observation seen;
+  seen.time = time;
+  seen.r_BN_N = Input(x + StateLayout::position());
+  seen.v_BN_N = Input(x + StateLayout::velocity());
+  seen.q_BN = Quaterniond(q[0], q[1], q[2], q[3]).normalized();
+  if (seen.q_BN.w() < 0.0) seen.q_BN.coeffs() *= -1.0;
+  seen.omega_BN_B = Input(x + layout_.rate());
+  seen.r_CN_N = seen.r_BN_N + sums.r_CB_N;
+  seen.v_CN_N = sums.v_CN_N;
+  seen.joint_position = entries(layout_.joint(), layout_.joint_rate());
+  seen.joint_rate = entries(layout_.joint_rate(), layout_.wheel());
+  seen.wheel_rate = entries(layout_.wheel(), layout_.size());
+  seen.mass = sums.mass;
+  seen.kinetic = sums.kinetic;
+  seen.potential = spring_energy() + forces_.potential(seen.r_BN_N, poses_);
+  seen.momentum = sums.momentum;
+  seen.H_PntC_N = sums.H_PntC_N;
+  seen.momentum_scale = sums.momentum_scale;
+  seen.H_scale = sums.H_scale;
+  return seen;
+}
+
+ExternalRates MujocoEngine::external_rates(double, std::span<const double> state) {
+  const MotionSums sums = move_to(state);
+  const Vector3d r_BN_N = Input(state.data() + StateLayout::position());
+  const Vector3d v_BN_N = Input(state.data() + StateLayout::velocity());
+  gather_rates(v_BN_N);
+  ExternalRates rates;
+  rates.power = joint_power() + forces_.power(r_BN_N, poses_, link_rates_);
+  std::ranges::fill(wrenches_, Wrench{});
+  const Vector3d fall = forces_.apply(r_BN_N, poses_, wrenches_);
+  for (const Wrench& wrench : wrenches_) {
+    rates.force_N += wrench.force_W;
+    rates.torque_PntC_N += wrench.torque_PntB_W;
+  }
+  rates.torque_PntC_N -= sums.r_CB_N.cross(rates.force_N);
+  rates.force_N += sums.mass * fall;  // acts at C
+  return rates;
+}
+
+void MujocoEngine::gather_rates(const Vector3d& v_BN_N) {
+  for (std::size_t i = 0; i < link_rates_.size(); ++i) {
+    const Twist twist = twist_of(*data_, map_.link_body[i]);
+    link_rates_[i].omega_LN_W = twist.omega;
+    link_rates_[i].v_LN_W = v_BN_N + twist.v_B + twist.omega.cross(poses_[i].r_LB_W);
+  }
+}
+
+double MujocoEngine::spring_energy() const {
+  double energy = 0.0;
+  for (std::size_t i = 0; i < map_.joint_qpos.size(); ++i) {
+    const int joint = model_->dof_jntid[map_.joint_dof[i]];
+    const double stretch =
+        data_->qpos[map_.joint_qpos[i]] - model_->qpos_spring[map_.joint_qpos[i]];
+    energy += 0.5 * model_->jnt_stiffness[joint] * stretch * stretch;
+  }
+  return energy;
+}
+
+// Motors and efforts, less what the dampers take.
+double MujocoEngine::joint_power() const {
+  double power = 0.0;
+  for (int i = kHubDofs; i < model_->nv; ++i) {
+    const double speed = data_->qvel[i];
+    power += (inputs_[static_cast<std::size_t>(i)] - model_->dof_damping[i] * speed) * speed;
+  }
+  return power;
+}
+
+Eigen::MatrixXd MujocoEngine::mass_matrix(std::span<const double> state) {
+  move_to(state);
+  mj_crb(model_.get(), data_.get());
+  Eigen::MatrixXd mass(model_->nv, model_->nv);
+  mj_fullM(model_.get(), mass.data(), data_->qM);
+  std::vector<int> order = {0, 1, 2, 3, 4, 5};
+  order.insert(order.end(), map_.joint_dof.begin(), map_.joint_dof.end());
+  order.insert(order.end(), map_.wheel_dof.begin(), map_.wheel_dof.end());
+  return mass(order, order);
+}
+
+}  // namespace
+
+std::unique_ptr<Engine> make_mujoco_engine(const Model& model, const std::string& mjcf) {
+  return std::make_unique<MujocoEngine>(model, mjcf);
+}
+
+}  // namespace twincraft

@@ -1,0 +1,83 @@
+// Decides how MuJoCo's errors and warnings leave it, and that models are loaded from memory.
+// Tested by tests/runtime/mujoco_test.cpp.
+#include "runtime/mujoco/handles.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <array>
+#include <cstring>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+#include "runtime/engine.h"
+
+namespace twincraft {
+namespace {
+
+constexpr const char* kFileName = "model.xml";
+
+// MuJoCo reports a warning on the thread that caused it, so no lock is needed.
+thread_local std::vector<std::string> warnings;
+
+[[noreturn]] void throw_error(const char* message) {
+  throw NumericalFailure(fmt::format("mujoco: {}", message));
+}
+
+void keep_warning(const char* message) { warnings.emplace_back(message); }
+
+// The hooks are plain globals of the library: set once, before anything of it is used.
+void install_hooks() {
+  [[maybe_unused]] static const bool installed = [] {
+    mju_user_error = throw_error;
+    mju_user_warning = keep_warning;
+    return true;
+  }();
+}
+
+struct VfsDeleter {
+  void operator()(mjVFS* vfs) const {
+    mj_deleteVFS(vfs);
+    delete vfs;
+  }
+};
+
+// An mjVFS holds its table of names by value, two megabytes: never on the stack.
+std::unique_ptr<mjVFS, VfsDeleter> in_memory(const std::string& mjcf) {
+  std::unique_ptr<mjVFS, VfsDeleter> vfs(new mjVFS);
+  mj_defaultVFS(vfs.get());
+  if (mj_makeEmptyFileVFS(vfs.get(), kFileName, static_cast<int>(mjcf.size())) != 0) {
+    throw NumericalFailure("mujoco: can not hold the model in memory");
+  }
+  std::memcpy(vfs->filedata[mj_findFileVFS(vfs.get(), kFileName)], mjcf.data(), mjcf.size());
+  return vfs;
+}
+
+}  // namespace
+
+MujocoModel load_mjcf(const std::string& mjcf) {
+  static std::mutex one_at_a_time;
+  const std::lock_guard lock(one_at_a_time);
+  install_hooks();
+  take_mujoco_warnings();  // of whatever ran before
+  const auto vfs = in_memory(mjcf);
+  std::array<char, 1000> error{};
+  MujocoModel model(mj_loadXML(kFileName, vfs.get(), error.data(), static_cast<int>(error.size())));
+  if (!model) {
+    throw NumericalFailure(fmt::format("mujoco: {} {}", error.data(), take_mujoco_warnings()));
+  }
+  return model;
+}
+
+MujocoData make_data(const mjModel& model) {
+  MujocoData data(mj_makeData(&model));
+  if (!data) throw NumericalFailure("mujoco: no memory for the model's data");
+  return data;
+}
+
+std::string take_mujoco_warnings() {
+  return fmt::format("{}", fmt::join(std::exchange(warnings, {}), "; "));
+}
+
+}  // namespace twincraft

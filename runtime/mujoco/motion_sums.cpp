@@ -1,0 +1,70 @@
+// Decides how momentum and energy are added up: about the system centre of mass, and in the hub's
+// co-moving frame until the last step, so that nothing small is lost beside orbital speed.
+// Tested by tests/runtime/mujoco_test.cpp.
+#include "runtime/mujoco/motion_sums.h"
+
+#include "runtime/mujoco/tree_map.h"
+
+namespace twincraft {
+namespace {
+
+using Point = Eigen::Map<const Vector3d>;
+
+Vector3d center_velocity(const mjData& data, int body) {
+  const Twist twist = twist_of(data, body);
+  return twist.v_B + twist.omega.cross(Point(data.xipos + 3 * body));
+}
+
+// I omega of one body about its own centre of mass, world axes.
+Vector3d spin_momentum(const mjModel& model, const mjData& data, int body,
+                       const Vector3d& omega_N) {
+  using Rotation = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>;
+  const Rotation dcm_NI(data.ximat + 9 * body);
+  const Point moments(model.body_inertia + 3 * body);
+  const Vector3d omega_I = dcm_NI.transpose() * omega_N;
+  return dcm_NI * moments.cwiseProduct(omega_I);
+}
+
+}  // namespace
+
+Twist twist_of(const mjData& data, int body) {
+  // cvel is (angular, linear) at the centre of mass of the whole tree.
+  const Vector3d omega = Point(data.cvel + 6 * body);
+  const Point r_CB_N(data.subtree_com + 3 * kHubBody);
+  return Twist{.omega = omega, .v_B = Point(data.cvel + 6 * body + 3) - omega.cross(r_CB_N)};
+}
+
+MotionSums sum_motion(const mjModel& model, const mjData& data, const Vector3d& v_BN_N) {
+  MotionSums sums;
+  Vector3d first_moment = Vector3d::Zero();  // [kg m] about the hub origin
+  Vector3d momentum_B = Vector3d::Zero();    // [kg m/s] relative to the hub origin
+  for (int body = kHubBody; body < model.nbody; ++body) {
+    const double mass = model.body_mass[body];
+    const Vector3d v_iB_N = center_velocity(data, body);
+    sums.mass += mass;
+    first_moment += mass * Point(data.xipos + 3 * body);
+    momentum_B += mass * v_iB_N;
+    sums.momentum_scale += mass * (v_BN_N.norm() + v_iB_N.norm());
+  }
+  sums.r_CB_N = first_moment / sums.mass;
+  const Vector3d v_CB_N = momentum_B / sums.mass;
+  sums.v_CN_N = v_BN_N + v_CB_N;
+  sums.momentum = sums.mass * v_BN_N + momentum_B;
+
+  double internal = 0.0;  // [J] about C
+  for (int body = kHubBody; body < model.nbody; ++body) {
+    const double mass = model.body_mass[body];
+    const Vector3d omega = Point(data.cvel + 6 * body);
+    const Vector3d r_iC_N = Point(data.xipos + 3 * body) - sums.r_CB_N;
+    const Vector3d v_iC_N = center_velocity(data, body) - v_CB_N;
+    const Vector3d spin = spin_momentum(model, data, body, omega);
+    const Vector3d H_i = mass * r_iC_N.cross(v_iC_N) + spin;
+    internal += 0.5 * (mass * v_iC_N.squaredNorm() + omega.dot(spin));
+    sums.H_PntC_N += H_i;
+    sums.H_scale += H_i.norm();
+  }
+  sums.kinetic = 0.5 * sums.mass * sums.v_CN_N.squaredNorm() + internal;
+  return sums;
+}
+
+}  // namespace twincraft

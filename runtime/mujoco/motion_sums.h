@@ -1,0 +1,34 @@
+// Mass, momentum and energy of a MuJoCo model in motion, summed over its own bodies with its own
+// masses, so that the books of this engine owe nothing to the analytic one.
+// Tested by tests/runtime/mujoco_test.cpp.
+#pragma once
+
+#include <mujoco/mujoco.h>
+
+#include "compiler/ir/mass.h"
+
+namespace twincraft {
+
+struct MotionSums {
+  double mass = 0.0;                     // [kg]
+  Vector3d r_CB_N = Vector3d::Zero();    // [m] system centre of mass from the hub origin
+  Vector3d v_CN_N = Vector3d::Zero();    // [m/s]
+  double kinetic = 0.0;                  // [J] in N
+  Vector3d momentum = Vector3d::Zero();  // [kg m/s] in N
+  Vector3d H_PntC_N = Vector3d::Zero();  // [kg m^2/s]
+  double momentum_scale = 0.0;           // sum of the bodies' magnitudes
+  double H_scale = 0.0;
+};
+
+/// @pre mj_kinematics, mj_comPos and mj_comVel have run with the hub's origin at rest at zero
+/// @param v_BN_N  the hub origin's true velocity [m/s]
+MotionSums sum_motion(const mjModel& model, const mjData& data, const Vector3d& v_BN_N);
+
+/// The spatial velocity of a body, taken at the hub origin, in world axes.
+struct Twist {
+  Vector3d omega;  // [rad/s]
+  Vector3d v_B;    // [m/s] of the body's point that passes the hub origin
+};
+Twist twist_of(const mjData& data, int body);
+
+}  // namespace twincraft

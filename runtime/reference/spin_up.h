@@ -1,0 +1,26 @@
+// A rigid body that is turned about one principal axis by a constant torque: rate and angle are
+// polynomials of time,
+//   omega(t) = omega(0) + L/I t,   theta(t) = omega(0) t + L/(2 I) t^2.
+// Tested by tests/runtime/reference_test.cpp.
+#pragma once
+
+#include "runtime/reference/reference.h"
+
+namespace twincraft {
+
+struct SpinUp {
+  Vector3d axis_B = Vector3d::UnitZ();  // principal, unit
+  double rate = 0.0;                    // omega(0) about it [rad/s]
+  double acceleration = 0.0;            // L/I [rad/s^2]
+
+  Vector3d omega_BN_B(double time) const { return (rate + acceleration * time) * axis_B; }
+  /// The turn since t = 0, B(t) to B(0) components.
+  Quaterniond turn(double time) const;
+};
+
+std::optional<std::string> spin_up_inapplicable(const Model& model, GravityLaw law);
+
+/// `attitude_deg`, the principal angle to the true attitude, and `rate_rad_s`.
+std::vector<Deviation> spin_up_deviations(const Model& model, std::span<const Observation> samples);
+
+}  // namespace twincraft

@@ -1,0 +1,168 @@
+// One function per object of the format, in the order of the file.
+// Tested by tests/runtime/report_test.cpp.
+#include "runtime/report/json.h"
+
+#include <nlohmann/json.hpp>
+
+namespace twincraft {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <typename T>
+Json or_null(const std::optional<T>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+Json vector_json(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+Json spec_json(const Bundle& bundle) {
+  return {{"name", bundle.model.name},
+          {"file", bundle.spec_file},
+          {"sha256", bundle.spec_sha256},
+          {"degrees_of_freedom", bundle.model.degrees_of_freedom()}};
+}
+
+Json provenance_json(const Provenance& provenance) {
+  return {{"program", provenance.program},
+          {"git", provenance.git},
+          {"compiler", provenance.compiler},
+          {"flags", provenance.flags},
+          {"mujoco", provenance.mujoco},
+          {"eigen", provenance.eigen},
+          {"cpu", provenance.cpu},
+          {"cores", provenance.cores},
+          {"load_average",
+           provenance.load_average < 0.0 ? Json(nullptr) : Json(provenance.load_average)}};
+}
+
+/// A setting's value as JSON when it reads as such (`0.02`), else as the text it is (`10 s`).
+Json settings_json(const ReportedMember& member) {
+  Json settings = Json::object();
+  for (const auto& [path, text] : member.settings) {
+    Json value = Json::parse(text, nullptr, false);
+    settings[path] = value.is_discarded() ? Json(text) : std::move(value);
+  }
+  return settings;
+}
+
+Json resolved_json(const Bundle& bundle) {
+  Json resolved = Json::parse(bundle.resolved_json, nullptr, false);
+  return resolved.is_discarded() ? Json::object() : resolved;
+}
+
+Json coordinates_json(const Model& model, const Observation& sample) {
+  Json coordinates = Json::object();
+  for (const Coordinate& coordinate : model.coordinates) {
+    const auto index = static_cast<std::size_t>(coordinate.index);
+    if (coordinate.kind == Coordinate::Kind::kWheel)
+      coordinates[coordinate.name] = {{"rate", sample.wheel_rate[index]}};
+    else
+      coordinates[coordinate.name] = {{"position", sample.joint_position[index - 1]},
+                                      {"rate", sample.joint_rate[index - 1]}};
+  }
+  return coordinates;
+}
+
+Json final_json(const Model& model, const Observation& sample) {
+  const Quaterniond& q = sample.q_BN;
+  return {{"r_BN_N_m", vector_json(sample.r_BN_N)},
+          {"v_BN_N_m_s", vector_json(sample.v_BN_N)},
+          {"r_CN_N_m", vector_json(sample.r_CN_N)},
+          {"v_CN_N_m_s", vector_json(sample.v_CN_N)},
+          {"q_BN", {q.w(), q.x(), q.y(), q.z()}},
+          {"omega_BN_B_rad_s", vector_json(sample.omega_BN_B)},
+          {"coordinates", coordinates_json(model, sample)},
+          {"mass_kg", sample.mass}};
+}
+
+std::string status_name(EngineRun::Status status) {
+  switch (status) {
+    case EngineRun::Status::kOk:
+      return "ok";
+    case EngineRun::Status::kSkipped:
+      return "skipped";
+    case EngineRun::Status::kFailed:
+      break;
+  }
+  return "failed";
+}
+
+Json engine_json(const Model& model, const EngineRun& run) {
+  Json engine{{"status", status_name(run.status)}, {"reason", run.reason}};
+  const Trajectory& trajectory = run.trajectory;
+  if (trajectory.samples.empty()) return engine;
+  engine["steps"] = trajectory.counts.accepted;
+  engine["rejected_steps"] = trajectory.counts.rejected;
+  engine["evaluations"] = trajectory.counts.evaluations;
+  engine["t_end_s"] = trajectory.t_end;
+  engine["final"] = final_json(model, trajectory.samples.back());
+  engine["conservation"] = {{"energy_relative", run.conservation.energy},
+                            {"momentum_relative", run.conservation.momentum},
+                            {"angular_momentum_relative", run.conservation.angular_momentum}};
+  return engine;
+}
+
+Json agreement_json(const Comparison& comparison) {
+  Json agreement = Json::object();
+  for (const Metric& metric : comparison.metrics)
+    agreement[metric.key] = {{"max", metric.maximum},
+                             {"at_s", metric.at},
+                             {"tolerance", or_null(metric.tolerance)},
+                             {"pass", or_null(metric.pass())}};
+  return agreement;
+}
+
+Json references_json(const std::vector<ReferenceRun>& runs) {
+  Json references = Json::object();
+  for (const ReferenceRun& run : runs)
+    for (const Deviation& deviation : run.deviations)
+      references[run.name][run.engine][deviation.metric] = {{"max", deviation.max},
+                                                            {"at_s", deviation.at}};
+  return references;
+}
+
+Json engine_timing_json(const EngineTiming& timing) {
+  Json json{{"trials_s", timing.trials}};
+  if (timing.trials.empty()) return json;
+  json["median_s"] = timing.median();
+  json["us_per_step"] = 1.0e6 * timing.per_step();
+  return json;
+}
+
+Json timing_json(const Timing& timing) {
+  Json json{{"protocol", protocol(timing)}};
+  for (const EngineTiming& engine : timing.engines) json[engine.name] = engine_timing_json(engine);
+  const std::optional<double> ratio = timing.ratio();
+  if (ratio) json["ratio_bsm_over_mujoco"] = *ratio;
+  return json;
+}
+
+Json member_json(const ReportedMember& member) {
+  const Member& result = member.result;
+  Json json{{"settings", settings_json(member)}, {"resolved", resolved_json(member.bundle)}};
+  for (const EngineRun& run : result.engines)
+    json["engines"][run.name] = engine_json(member.bundle.model, run);
+  json["agreement"] = result.comparison ? agreement_json(*result.comparison) : Json::object();
+  if (result.comparison) json["same_sample_times"] = result.comparison->same_times;
+  json["references"] = references_json(result.references);
+  if (result.timing) json["timing"] = timing_json(*result.timing);
+  return json;
+}
+
+}  // namespace
+
+std::string report_json(const Report& report) {
+  Json json{{"format", "twincraft-report/1"},
+            {"complete", report.complete()},
+            {"verdict", verdict_name(report.verdict())},
+            {"spec", spec_json(report.members.front().bundle)},
+            {"provenance", provenance_json(report.provenance)},
+            {"members", Json::array()},
+            {"studies", Json::object()}};
+  for (const ReportedMember& member : report.members)
+    json["members"].push_back(member_json(member));
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace twincraft

@@ -1,0 +1,14 @@
+// report.json: the whole result for programs, format `twincraft-report/1`.
+// Tested by tests/runtime/report_test.cpp.
+#pragma once
+
+#include <string>
+
+#include "runtime/report/report.h"
+
+namespace twincraft {
+
+/// Metrics that do not apply are absent; numbers that are not finite are null.
+std::string report_json(const Report& report);
+
+}  // namespace twincraft

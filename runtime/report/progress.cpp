@@ -1,0 +1,57 @@
+// See progress.h. Tested by tests/runtime/report_test.cpp.
+#include "runtime/report/progress.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "runtime/report/words.h"
+
+namespace twincraft {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto kQuiet = 500ms;
+constexpr auto kInterval = 100ms;
+constexpr int kCells = 20;
+constexpr const char* kEraseLine = "\r\x1b[K";
+
+double seconds(std::chrono::steady_clock::duration time) {
+  return std::chrono::duration<double>(time).count();
+}
+
+}  // namespace
+
+std::string progress_line(std::string_view phase, double fraction, double elapsed_seconds) {
+  fraction = std::clamp(fraction, 0.0, 1.0);
+  const int filled = static_cast<int>(fraction * kCells);
+  std::string line = fmt::format("{:<7} [{}{}] {:>3.0f} %", phase, std::string(filled, '#'),
+                                 std::string(kCells - filled, '.'), 100.0 * fraction);
+  if (fraction >= 0.02 && fraction < 1.0)
+    line += fmt::format("  {} left", duration(elapsed_seconds * (1.0 - fraction) / fraction));
+  return line;
+}
+
+void ProgressBar::show(std::string_view phase, double fraction) {
+  const Clock::time_point now = Clock::now();
+  if (phase != phase_) {
+    phase_ = phase;
+    phase_begin_ = now;
+  }
+  if (now - begin_ < kQuiet || now - last_drawn_ < kInterval) return;
+  fmt::print(terminal_, "{}{}", kEraseLine,
+             progress_line(phase, fraction, seconds(now - phase_begin_)));
+  std::fflush(terminal_);
+  last_drawn_ = now;
+  drawn_ = true;
+}
+
+void ProgressBar::clear() {
+  if (!drawn_) return;
+  fmt::print(terminal_, "{}", kEraseLine);
+  std::fflush(terminal_);
+  drawn_ = false;
+}
+
+}  // namespace twincraft

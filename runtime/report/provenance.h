@@ -1,0 +1,23 @@
+// Which program, on which machine, made a report: what someone needs to judge its timings and to
+// make it again.  Tested by tests/runtime/report_test.cpp.
+#pragma once
+
+#include <string>
+
+namespace twincraft {
+
+struct Provenance {
+  std::string program;   // `scsim 0.1.0`
+  std::string git;       // `git describe` when built; empty outside a repository
+  std::string compiler;  // `GNU 12.2.0`
+  std::string flags;     // ours, as configured
+  std::string mujoco;    // of the library that was loaded
+  std::string eigen;
+  std::string cpu;  // empty when the system does not say
+  int cores = 0;
+  double load_average = 0.0;  // over the last minute; negative when the system does not say
+};
+
+Provenance provenance();
+
+}  // namespace twincraft

@@ -1,0 +1,132 @@
+// One function per block of the table; a block without rows is left out.
+// Tested by tests/runtime/report_test.cpp.
+#include "runtime/report/table.h"
+
+#include <fmt/color.h>
+#include <fmt/format.h>
+
+#include "runtime/report/words.h"
+
+namespace twincraft {
+namespace {
+
+constexpr std::string_view kRow = "{:<21}{:<15}{:<12}{:<17}{}";
+
+std::string row(std::string_view label, std::string_view a, std::string_view b, std::string_view c,
+                std::string_view d = "") {
+  std::string line = fmt::format(fmt::runtime(kRow), label, a, b, c, d);
+  line.erase(line.find_last_not_of(' ') + 1);
+  return line + "\n";
+}
+
+std::string indented(std::string_view label) { return fmt::format("  {}", label); }
+
+std::string paint(std::string_view text, fmt::color color, bool colour) {
+  return colour ? fmt::format(fmt::fg(color), "{}", text) : std::string(text);
+}
+
+std::string result_words(const Metric& metric, bool colour) {
+  const std::optional<bool> pass = metric.pass();
+  if (!pass) return "";
+  return *pass ? paint("ok", fmt::color::green, colour)
+               : paint("EXCEEDED", fmt::color::red, colour);
+}
+
+/// The mass is worth a line only when someone judges it or the engines differ.
+bool is_worth_showing(const Metric& metric) {
+  return metric.key != "mass_kg" || metric.tolerance || metric.maximum != 0.0;
+}
+
+std::string agreement_block(const ReportedMember& member, bool colour) {
+  if (!member.result.comparison) return {};
+  std::string text = row("agreement", "maximum", "at", "tolerance");
+  for (const Metric& metric : member.result.comparison->metrics) {
+    if (!is_worth_showing(metric)) continue;
+    const auto [label, unit] = words_of(metric.key, member.bundle.model);
+    const std::string tolerance =
+        metric.tolerance ? fmt::format("{:g} {}", *metric.tolerance, unit) : "-";
+    text += row(indented(label), quantity(metric.maximum, unit), fmt::format("{:.2f} s", metric.at),
+                tolerance, result_words(metric, colour));
+  }
+  return text;
+}
+
+std::string engine_label(std::string_view engine) { return engine == "bsm" ? "BSM" : "MuJoCo"; }
+
+std::string reference_block(const ReportedMember& member) {
+  if (member.result.references.empty()) return {};
+  std::string text = row("reference", "maximum", "at", "engine");
+  for (const ReferenceRun& run : member.result.references)
+    for (const Deviation& deviation : run.deviations) {
+      const auto [label, unit] = words_of(deviation.metric, member.bundle.model);
+      // A reference speaks of the system's centre of mass where a metric speaks of the hub.
+      const std::string what = label.starts_with("hub ") ? label.substr(4) : label;
+      text += row(indented(run.name + " " + what), quantity(deviation.max, unit),
+                  fmt::format("{:.2f} s", deviation.at), engine_label(run.engine));
+    }
+  return text;
+}
+
+std::string conservation_block(const Member& result) {
+  std::string text = row("conservation", "BSM", "MuJoCo", "");
+  const auto add = [&](std::string_view label, double Conservation::*imbalance) {
+    const auto cell = [&](const EngineRun& run) -> std::string {
+      if (run.trajectory.samples.empty()) return "-";
+      return quantity(run.conservation.*imbalance, "");
+    };
+    text += row(indented(label), cell(result.engines[0]), cell(result.engines[1]), "relative");
+  };
+  add("energy balance", &Conservation::energy);
+  add("momentum", &Conservation::momentum);
+  add("angular momentum", &Conservation::angular_momentum);
+  return text;
+}
+
+std::string cost_block(const Member& result) {
+  if (!result.timing || !result.timing->complete() || result.timing->engines.empty()) return {};
+  std::string text = row("cost", "per step", "whole run", "evaluations");
+  const std::optional<double> ratio = result.timing->ratio();
+  for (const EngineTiming& timing : result.timing->engines) {
+    const bool is_mujoco = timing.name == "mujoco";
+    const EngineRun& run = result.engines[is_mujoco ? 1 : 0];
+    text += row(indented(engine_label(timing.name)), duration(timing.per_step()),
+                duration(timing.median()), fmt::format("{}", run.trajectory.counts.evaluations),
+                is_mujoco && ratio ? fmt::format("{:.3g}x", 1.0 / *ratio) : "");
+  }
+  return text;
+}
+
+std::string why_not_judged(const Member& result) {
+  for (const EngineRun& run : result.engines)
+    if (!run.reason.empty()) return fmt::format("{}: {}", engine_label(run.name), run.reason);
+  if (result.comparison && !result.comparison->same_times)
+    return "the engines were not sampled at the same times";
+  return "the spec gives no tolerance";
+}
+
+std::string verdict_line(const Member& result, bool colour) {
+  switch (result.verdict()) {
+    case Verdict::kAgree:
+      return paint("the engines agree", fmt::color::green, colour);
+    case Verdict::kDisagree:
+      return paint("the engines disagree", fmt::color::red, colour);
+    case Verdict::kNotJudged:
+      break;
+  }
+  return fmt::format("not judged; {}", why_not_judged(result));
+}
+
+}  // namespace
+
+std::string report_table(const ReportedMember& member, bool colour) {
+  const Model& model = member.bundle.model;
+  std::string text =
+      fmt::format("{}   {}   {}\n\n", model.name, vehicle_words(model), plan_words(model));
+  text += agreement_block(member, colour);
+  text += reference_block(member);
+  text += conservation_block(member.result);
+  text += cost_block(member.result);
+  return text + "\n" + verdict_line(member.result, colour) + "\n";
+}
+
+}  // namespace twincraft

@@ -1,0 +1,114 @@
+// See words.h. Tested by tests/runtime/report_test.cpp.
+#include "runtime/report/words.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <utility>
+
+#include "compiler/ir/number.h"
+#include "runtime/integrate/tableau.h"
+
+namespace twincraft {
+namespace {
+
+using Kind = Coordinate::Kind;
+
+struct Entry {
+  std::string_view key, label, unit;
+};
+
+constexpr std::array kWords{
+    Entry{"attitude_deg", "attitude", "deg"},
+    Entry{"rate_rad_s", "body rate", "rad/s"},
+    Entry{"position_m", "hub position", "m"},
+    Entry{"velocity_m_s", "hub velocity", "m/s"},
+    Entry{"com_position_m", "system CoM", "m"},
+    Entry{"joint_deg", "joint angles", "deg"},
+    Entry{"joint_m", "joint travel", "m"},
+    Entry{"wheel_rate_rad_s", "wheel rate", "rad/s"},
+    Entry{"slosh_m", "slosh", "m"},
+    Entry{"pendulum_deg", "pendulum", "deg"},
+    Entry{"mass_kg", "mass", "kg"},
+};
+
+bool has(const Model& model, Kind kind) {
+  return std::any_of(model.coordinates.begin(), model.coordinates.end(),
+                     [kind](const Coordinate& coordinate) { return coordinate.kind == kind; });
+}
+
+/// Components, not coordinates: `wing_p.1` and `wing_p.2` are one panel.
+std::size_t count_components(const Model& model, std::initializer_list<Kind> kinds) {
+  std::set<std::string> names;
+  for (const Coordinate& coordinate : model.coordinates)
+    if (std::find(kinds.begin(), kinds.end(), coordinate.kind) != kinds.end())
+      names.insert(coordinate.name.substr(0, coordinate.name.find('.')));
+  return names.size();
+}
+
+std::string gravity_words(GravityLaw law) {
+  switch (law) {
+    case GravityLaw::kNone:
+      return "no gravity";
+    case GravityLaw::kSystemCom:
+      return "gravity at the system CoM";
+    case GravityLaw::kBodyCom:
+      return "gravity at each body";
+    case GravityLaw::kBodyGradient:
+      break;
+  }
+  return "gravity and its gradient at each body";
+}
+
+}  // namespace
+
+MetricWords words_of(std::string_view key, const Model& model) {
+  if (key == "joint_deg" && !has(model, Kind::kBodyAngle)) return {"panel angle", "deg"};
+  const auto* entry =
+      std::find_if(kWords.begin(), kWords.end(), [key](const Entry& e) { return e.key == key; });
+  if (entry == kWords.end()) return {std::string(key), ""};
+  return {std::string(entry->label), std::string(entry->unit)};
+}
+
+std::string vehicle_words(const Model& model) {
+  std::string text = fmt::format("{} DOF: hub", model.degrees_of_freedom());
+  const auto add = [&](std::string_view one, std::string_view many,
+                       std::initializer_list<Kind> kinds) {
+    const std::size_t count = count_components(model, kinds);
+    if (count > 0) text += fmt::format(", {} {}", count, count == 1 ? one : many);
+  };
+  add("wheel", "wheels", {Kind::kWheel});
+  add("panel", "panels", {Kind::kPanel});
+  add("jointed body", "jointed bodies", {Kind::kBodyAngle, Kind::kBodyDisplacement});
+  add("slosh particle", "slosh particles", {Kind::kParticle});
+  add("slosh pendulum", "slosh pendulums", {Kind::kPendulum});
+  return text;
+}
+
+std::string plan_words(const Model& model) {
+  const SimulationPlan& plan = model.simulation;
+  const Tableau& tableau = tableau_of(plan.method);
+  std::string text = fmt::format("{} s, {} {} {} s", shortest(plan.duration), tableau.name,
+                                 tableau.adaptive ? "landing every" : "at", shortest(plan.step));
+  text += ", " + gravity_words(model.gravity.bsm);
+  if (model.gravity.mujoco != model.gravity.bsm)
+    text += fmt::format(" (MuJoCo: {})", gravity_words(model.gravity.mujoco));
+  return text;
+}
+
+std::string quantity(double value, std::string_view unit) {
+  const std::string number = value == 0.0 ? "0" : fmt::format("{:.1e}", value);
+  return unit.empty() ? number : fmt::format("{} {}", number, unit);
+}
+
+std::string duration(double seconds) {
+  constexpr std::array<std::pair<double, std::string_view>, 3> kUnits{
+      {{1.0e-9, "ns"}, {1.0e-6, "us"}, {1.0e-3, "ms"}}};
+  for (const auto& [unit, name] : kUnits)
+    if (seconds < 999.5 * unit) return fmt::format("{:.3g} {}", seconds / unit, name);
+  return seconds < 999.5 ? fmt::format("{:.3g} s", seconds) : fmt::format("{:.0f} s", seconds);
+}
+
+}  // namespace twincraft

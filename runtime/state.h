@@ -1,0 +1,29 @@
+// The state both engines integrate: one flat vector, the same blocks in the same order.
+#pragma once
+
+#include <cstddef>
+
+#include "compiler/ir/model.h"
+
+namespace twincraft {
+
+/// Where each block of a state vector begins.
+///   r_BN_N [m], v_BN_N [m/s], attitude (MRP sigma_BN or quaternion scalar first, B to N),
+///   omega_BN_B [rad/s], q (per joint), qDot, wheel speeds relative to the mount [rad/s]
+struct StateLayout {
+  AttitudeChart chart = AttitudeChart::kMrp;
+  int joints = 0;
+  int wheels = 0;
+
+  static constexpr int position() { return 0; }
+  static constexpr int velocity() { return 3; }
+  static constexpr int attitude() { return 6; }
+  int attitude_size() const { return chart == AttitudeChart::kMrp ? 3 : 4; }
+  int rate() const { return attitude() + attitude_size(); }
+  int joint() const { return rate() + 3; }
+  int joint_rate() const { return joint() + joints; }
+  int wheel() const { return joint_rate() + joints; }
+  int size() const { return wheel() + wheels; }
+};
+
+}  // namespace twincraft

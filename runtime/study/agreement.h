@@ -1,0 +1,54 @@
+// Do the two engines agree? The largest difference of every physical quantity over two
+// trajectories of one model, when it occurred, and what the spec's tolerances say of it. Knows the
+// metrics of report.json and nothing of engines. A verdict needs a comparison that has run to the
+// end: half a run can disagree, but never agree.
+// Tested by tests/runtime/agreement_test.cpp.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "runtime/study/propagate.h"
+
+namespace twincraft {
+
+/// A running maximum that a NaN wins for good: a comparison that can not be made never passes.
+struct Peak {
+  double maximum = 0.0;
+  double at = 0.0;  // [s] when it first occurred
+
+  void see(double value, double time);
+};
+
+/// One quantity compared, in the unit its key ends in.
+struct Metric {
+  std::string key;                  // `attitude_deg`, as in report.json
+  double maximum = 0.0;             // not finite when a sample was not
+  double at = 0.0;                  // [s]
+  std::optional<double> tolerance;  // nothing: reported, not judged
+
+  /// Nothing when there is no tolerance.
+  std::optional<bool> pass() const;
+};
+
+enum class Verdict { kAgree, kDisagree, kNotJudged };
+
+/// `agree`, `disagree`, `not_judged`
+std::string_view verdict_name(Verdict verdict);
+
+struct Comparison {
+  std::vector<Metric> metrics;  // those that apply to the vehicle; none without common samples
+  bool same_times = false;      // both trajectories were sampled at the same instants throughout
+  Verdict verdict = Verdict::kNotJudged;
+};
+
+/// Compares the samples both trajectories have, from the start to the first that differ in time.
+Comparison compare(const Model& model, const Trajectory& a, const Trajectory& b);
+
+/// Angle [rad] of the rotation between two attitudes, in [0, pi]; keeps its relative accuracy down
+/// to rotations of about 1e-16 rad, where the arc cosine of the scalar part knows nothing.
+double principal_angle(const Quaterniond& a, const Quaterniond& b);
+
+}  // namespace twincraft

@@ -1,0 +1,22 @@
+// What an engine should have kept: energy, momentum and angular momentum, each against the books of
+// what came from outside. Relative to the magnitudes that were there, so that a total near zero
+// (opposed wheels, a vehicle at rest) does not make rounding look large.
+// Tested by tests/runtime/conservation_test.cpp.
+#pragma once
+
+#include "runtime/study/propagate.h"
+
+namespace twincraft {
+
+/// Largest imbalances over the samples of one trajectory.
+struct Conservation {
+  double energy = 0.0;            // |E - E0 - work| / max|E|; max kinetic when E is near zero
+  double momentum = 0.0;          // |p - p0 - impulse| / max momentum_scale
+  double angular_momentum = 0.0;  // |H - H0 - angular impulse| / max H_scale, about C
+};
+
+/// A trajectory without samples has nothing to lose: all zero. A NaN stays a NaN.
+/// @pre one entry of books per sample
+Conservation conservation_of(const Trajectory& trajectory);
+
+}  // namespace twincraft

@@ -1,0 +1,235 @@
+// Both runs share one loop over landings; they differ in what is integrated (the engine alone, or
+// the engine and its books) and in what is done at a landing.
+// Tested by tests/runtime/propagate_test.cpp.
+#include "runtime/study/propagate.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <optional>
+
+#include "compiler/ir/number.h"
+#include "runtime/integrate/landings.h"
+
+namespace twincraft {
+namespace {
+
+class EngineOde : public Ode {
+ public:
+  explicit EngineOde(Engine& engine) : engine_(engine) {}
+  int size() const override { return engine_.layout().size(); }
+  void derivative(double time, std::span<const double> state, std::span<double> rate) override {
+    engine_.derivative(time, state, rate);
+  }
+  void finish_step(std::span<double> state) override { engine_.finish_step(state); }
+
+ private:
+  Engine& engine_;
+};
+
+// The books are quadratures appended behind the state: nothing reads them back.
+constexpr std::size_t kBooks = 7;
+
+class BookkeepingOde : public Ode {
+ public:
+  explicit BookkeepingOde(Engine& engine)
+      : engine_(engine), size_(static_cast<std::size_t>(engine.layout().size())) {}
+  int size() const override { return static_cast<int>(size_ + kBooks); }
+  void derivative(double time, std::span<const double> state, std::span<double> rate) override {
+    engine_.derivative(time, state.first(size_), rate.first(size_));
+    const ExternalRates external = engine_.external_rates(time, state.first(size_));
+    const std::span<double> books = rate.last(kBooks);
+    books[0] = external.power;
+    Vector3d::Map(&books[1]) = external.force_N;
+    Vector3d::Map(&books[4]) = external.torque_PntC_N;
+  }
+  void finish_step(std::span<double> state) override { engine_.finish_step(state.first(size_)); }
+
+ private:
+  Engine& engine_;
+  std::size_t size_;
+};
+
+Books books_of(std::span<const double> state) {
+  const std::span<const double> books = state.last(kBooks);
+  return {books[0], Vector3d::Map(&books[1]), Vector3d::Map(&books[4])};
+}
+
+std::string coordinate_name(const Model& model, bool is_wheel, int index) {
+  for (const Coordinate& coordinate : model.coordinates) {
+    const bool names_wheel = coordinate.kind == Coordinate::Kind::kWheel;
+    if (names_wheel == is_wheel && coordinate.index == index) return coordinate.name;
+  }
+  return fmt::format("{} {}", is_wheel ? "wheel" : "joint", index);
+}
+
+/// A name for every entry of the state and the books behind it, as in the CSV files.
+std::vector<std::string> state_names(const Model& model, const StateLayout& layout) {
+  std::vector<std::string> names;
+  const auto add = [&names](std::string_view vector, std::string_view components) {
+    for (const char component : components)
+      names.push_back(fmt::format("{}.{}", vector, component));
+  };
+  add("r_BN_N", "xyz");
+  add("v_BN_N", "xyz");
+  if (layout.chart == AttitudeChart::kMrp)
+    add("sigma_BN", "123");
+  else
+    add("q_BN", "wxyz");
+  add("omega_BN_B", "xyz");
+  for (const char* quantity : {"position", "rate"}) {
+    for (int link = 1; link <= layout.joints; ++link)
+      names.push_back(coordinate_name(model, false, link) + "." + quantity);
+  }
+  for (int rotor = 0; rotor < layout.wheels; ++rotor)
+    names.push_back(coordinate_name(model, true, rotor) + ".rate");
+  names.push_back("work");
+  add("impulse_N", "xyz");
+  add("angular_impulse_N", "xyz");
+  return names;
+}
+
+std::vector<double> input_events(const Model& model) {
+  std::vector<const Schedule*> schedules;
+  for (const Link& link : model.assembly.links) schedules.push_back(&link.joint.effort);
+  for (const Rotor& rotor : model.assembly.rotors) schedules.push_back(&rotor.torque);
+  for (const Load& load : model.loads) {
+    for (const Schedule& force : load.force_L) schedules.push_back(&force);
+    for (const Schedule& torque : load.torque_L) schedules.push_back(&torque);
+  }
+  return event_times(schedules, model.simulation.duration);
+}
+
+/// An engine at t = 0 and its way from landing to landing.
+class Run {
+ public:
+  Run(Engine& engine, Ode& ode, const Model& model)
+      : engine_(engine),
+        stepper_(tableau_of(model.simulation.method), ode),
+        names_(state_names(model, engine.layout())),
+        control_(engine.layout(), model.simulation.tolerance, names_),
+        landings_(model.simulation.step, model.simulation.duration, input_events(model)) {
+    engine.hold_inputs(0.0);
+    const Eigen::VectorXd initial = engine.initial_state();
+    std::copy(initial.begin(), initial.end(), stepper_.state().begin());
+  }
+
+  bool done() const { return landings_.done(); }
+  double time() const { return time_; }
+  double tolerance() const { return landings_.tolerance(); }
+  std::span<const double> state() { return stepper_.state(); }
+  const StepCounts& counts() const { return counts_; }
+
+  /// To the next landing, or as far as an adaptive method got when `*stop` became true.
+  /// @throws NumericalFailure
+  void advance(const std::atomic<bool>* stop = nullptr) {
+    const Landing landing = landings_.next();
+    if (stepper_.tableau().adaptive) {
+      time_ = control_.advance(stepper_, time_, landing.time, counts_, stop);
+    } else {
+      stepper_.step(time_, landing.time - time_);
+      counts_.evaluations += stepper_.tableau().stages;
+      ++counts_.accepted;
+      if (!stepper_.state_is_finite()) fail();
+      time_ = landing.time;
+    }
+    if (landing.is_event) engine_.hold_inputs(landing.time);
+  }
+
+ private:
+  [[noreturn]] void fail() const {
+    const auto entry = static_cast<std::size_t>(stepper_.first_non_finite());
+    throw NumericalFailure(fmt::format("`{}` is not finite in the step from t = {} s",
+                                       names_[entry], shortest(time_)));
+  }
+
+  Engine& engine_;
+  RungeKutta stepper_;
+  std::vector<std::string> names_;
+  StepControl control_;
+  Landings landings_;
+  double time_ = 0.0;
+  StepCounts counts_;
+};
+
+/// Which landings are recorded.
+class Recorder {
+ public:
+  Recorder(double interval, double tolerance) : interval_(interval), tolerance_(tolerance) {}
+  bool is_due(double time) const { return time >= next_ - tolerance_; }
+  void recorded(double time) {
+    next_ = (std::floor((time + tolerance_) / interval_) + 1.0) * interval_;
+  }
+
+ private:
+  double interval_;
+  double tolerance_;
+  double next_ = 0.0;
+};
+
+class Progress {
+ public:
+  explicit Progress(const std::function<void(double)>& report) : report_(report) {}
+  void at(double time) {
+    if (!report_ || Clock::now() - last_ < std::chrono::milliseconds(50)) return;
+    report_(time);
+    last_ = Clock::now();
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  const std::function<void(double)>& report_;
+  Clock::time_point last_ = Clock::now();
+};
+
+/// From the first sample to the last; t_end and the samples stay valid when this throws.
+void record_run(Engine& engine, Run& run, const Model& model, const PropagateOptions& options,
+                Trajectory& trajectory) {
+  Recorder recorder(model.simulation.record, run.tolerance());
+  Progress progress(options.progress);
+  const auto record = [&] {
+    const auto state = run.state();
+    const auto size = static_cast<std::size_t>(engine.layout().size());
+    trajectory.samples.push_back(engine.observe(run.time(), state.first(size)));
+    trajectory.books.push_back(books_of(state));
+    recorder.recorded(run.time());
+  };
+  const auto stopped = [&] { return options.stop != nullptr && *options.stop; };
+
+  record();
+  while (!run.done() && !stopped()) {
+    run.advance(options.stop);
+    trajectory.t_end = run.time();
+    if (recorder.is_due(run.time())) record();
+    progress.at(run.time());
+  }
+  if (trajectory.samples.back().time != run.time()) record();
+  if (run.time() < model.simulation.duration) trajectory.status = Trajectory::Status::kInterrupted;
+}
+
+}  // namespace
+
+Trajectory propagate(Engine& engine, const Model& model, const PropagateOptions& options) {
+  BookkeepingOde ode(engine);
+  Run run(engine, ode, model);
+  Trajectory trajectory;
+  try {
+    record_run(engine, run, model, options, trajectory);
+  } catch (const NumericalFailure& failure) {
+    trajectory.status = Trajectory::Status::kFailed;
+    trajectory.failure = failure.what();
+  }
+  trajectory.counts = run.counts();
+  return trajectory;
+}
+
+StepCounts propagate_bare(Engine& engine, const Model& model) {
+  EngineOde ode(engine);
+  Run run(engine, ode, model);
+  while (!run.done()) run.advance();
+  return run.counts();
+}
+
+}  // namespace twincraft

@@ -1,0 +1,63 @@
+// One member of a study, from a compiled bundle to everything there is to report: both engines
+// propagated, checked against the books, compared, held against references, timed. The file to read
+// first in this room.  Tested by tests/agreement/scsim_test.cpp.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "compiler/ir/bundle.h"
+#include "runtime/reference/reference.h"
+#include "runtime/study/agreement.h"
+#include "runtime/study/conservation.h"
+#include "runtime/study/timing.h"
+
+namespace twincraft {
+
+struct RunOptions {
+  bool bsm = true;
+  bool mujoco = true;
+  int trials = 5;                           // 0: no timing
+  const std::atomic<bool>* stop = nullptr;  // set by a signal handler
+  /// Called now and then: what is being done, and how much of it, 0 to 1.
+  std::function<void(std::string_view phase, double fraction)> progress;
+};
+
+struct EngineRun {
+  enum class Status { kOk, kSkipped, kFailed };
+  std::string name;  // "bsm", "mujoco"
+  Status status = Status::kOk;
+  std::string reason;     // skipped, failed or interrupted: why
+  Trajectory trajectory;  // no samples when skipped
+  Conservation conservation;
+};
+
+/// One engine against one truth; maxima, no tolerances.
+struct ReferenceRun {
+  std::string name;    // "kepler"
+  std::string engine;  // "bsm"
+  std::vector<Deviation> deviations;
+};
+
+struct Member {
+  std::vector<EngineRun> engines;        // always bsm, mujoco
+  std::optional<Comparison> comparison;  // when both ran
+  std::vector<ReferenceRun> references;
+  std::optional<Timing> timing;  // when asked for and the runs succeeded
+  bool complete = false;         // everything asked for was computed to its end
+
+  Verdict verdict() const { return comparison ? comparison->verdict : Verdict::kNotJudged; }
+  bool failed() const;  // an engine failed numerically
+};
+
+/// Why the vehicle can not be held against a reference that the spec names; empty when it can.
+std::string reference_refusal(const Model& model, const RunOptions& options);
+
+/// Numerical failures are part of the result. @pre reference_refusal() has no objection
+Member run_member(const Bundle& bundle, const RunOptions& options);
+
+}  // namespace twincraft

@@ -1,0 +1,245 @@
+// Claims about scsim as its user meets it: what it prints, writes and exits with.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <algorithm>
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "tests/support/run_program.h"
+
+namespace twincraft {
+namespace {
+
+using nlohmann::json;
+using test::ProgramResult;
+using test::TemporaryFolder;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+const std::string kQuickstart = TWINCRAFT_ROOT "/models/quickstart.yaml";
+
+// One rigid body that is turned about a principal axis: everything is known in closed form.
+const std::string kSpinner = R"(format: spacecraft/1
+name: spinner
+hub: {mass: 750, inertia: [900, 800, 600]}
+loads:
+  - {name: push, torque: [0, 0, 0.4]}
+initial: {rate: [0, 0, 0.03]}
+simulation: {integrator: rk4, step: 0.1, duration: 10, record: 1}
+agreement: {attitude: 1.0e-9 deg, rate: 1.0e-12, position: 1 um}
+references: [spin_up]
+)";
+
+class Scsim : public testing::Test {
+ protected:
+  ProgramResult run(std::vector<std::string> arguments, test::ProgramInput input = {}) {
+    return test::run_program(TWINCRAFT_SCSIM, arguments, input);
+  }
+  /// The spinner with its report in the folder, and further arguments.
+  ProgramResult run_spinner(std::vector<std::string> arguments, test::ProgramInput input = {}) {
+    arguments.insert(arguments.begin(), {spinner, "-o", folder.path() + "/out"});
+    return run(std::move(arguments), std::move(input));
+  }
+  json report() const { return json::parse(folder.read("out/report.json")); }
+  json member() const { return report()["members"][0]; }
+
+  TemporaryFolder folder;
+  std::string spinner = folder.write("spinner.yaml", kSpinner);
+};
+
+TEST_F(Scsim, FindsTheQuickstartInAgreement) {
+  const ProgramResult result = run({kQuickstart, "-o", folder.path() + "/out", "--trials", "1"});
+  EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+  EXPECT_THAT(result.out, HasSubstr("11 DOF: hub, 3 wheels, 2 panels"));
+  EXPECT_THAT(result.out, HasSubstr("the engines agree"));
+  EXPECT_EQ(report()["verdict"], "agree");
+  EXPECT_EQ(report()["complete"], true);
+  EXPECT_EQ(report()["spec"]["degrees_of_freedom"], 11);
+  for (const char* engine : {"bsm", "mujoco"}) {
+    const json run = member()["engines"][engine];
+    EXPECT_EQ(run["status"], "ok");
+    EXPECT_EQ(run["steps"], 6000);
+    EXPECT_EQ(run["evaluations"], 24000);
+    EXPECT_EQ(run["t_end_s"], 120.0);
+    // What a fourth-order step of 0.02 s leaves of them; a wrong sign anywhere leaves about one.
+    EXPECT_LT(run["conservation"]["energy_relative"], 1.0e-6);
+    EXPECT_LT(run["conservation"]["angular_momentum_relative"], 1.0e-8);
+    EXPECT_LT(run["conservation"]["momentum_relative"], 1.0e-8);
+  }
+}
+
+TEST_F(Scsim, WritesOneCsvPerEngineWithASampleEveryRecord) {
+  ASSERT_EQ(run_spinner({"--no-timing"}).exit_code, 0);
+  for (const char* file : {"out/bsm.csv", "out/mujoco.csv"}) {
+    const std::string text = folder.read(file);
+    EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 12) << file;
+    EXPECT_TRUE(text.starts_with("t [s],r_BN_N.x [m],")) << file;
+  }
+}
+
+TEST_F(Scsim, HoldsEachEngineAgainstTheClosedForm) {
+  ASSERT_EQ(run_spinner({"--no-timing"}).exit_code, 0);
+  for (const char* engine : {"bsm", "mujoco"}) {
+    const json reference = member()["references"]["spin_up"][engine];
+    EXPECT_LT(reference["rate_rad_s"]["max"], 1.0e-14) << engine;
+    EXPECT_LT(reference["attitude_deg"]["max"], 1.0e-6) << engine;
+  }
+  EXPECT_FALSE(member().contains("timing"));
+}
+
+TEST_F(Scsim, TimesByTheProtocol) {
+  ASSERT_EQ(run_spinner({"--trials", "3"}).exit_code, 0);
+  const json timing = member()["timing"];
+  EXPECT_EQ(timing["protocol"], "warmup=1 trials=3 interleaved reversed");
+  EXPECT_EQ(timing["bsm"]["trials_s"].size(), 3u);
+  EXPECT_GT(timing["mujoco"]["median_s"], 0.0);
+  EXPECT_GT(timing["ratio_bsm_over_mujoco"], 0.0);
+}
+
+TEST_F(Scsim, ExitsWithOneWhenAToleranceIsExceeded) {
+  // A microgram on one side only is far more than rounding.
+  const ProgramResult result =
+      run({kQuickstart, "-o", folder.path() + "/out", "--no-timing", "--duration", "10 s",  //
+           "--set", "engines.mujoco.compensate=false", "--set", "engines.mujoco.wheel_mass=1 g"});
+  EXPECT_EQ(result.exit_code, 1) << result.out << result.err;
+  EXPECT_THAT(result.out, HasSubstr("the engines disagree"));
+  EXPECT_EQ(report()["verdict"], "disagree");
+}
+
+TEST_F(Scsim, TakesTheConvenienceFlagsForSpecPaths) {
+  // One engine: two attitude charts do not agree to 1e-9 deg at second order.
+  const ProgramResult result = run_spinner({"--no-timing", "--engine", "bsm", "--step", "0.2",
+                                            "--integrator", "rk2", "--duration", "4 s"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(member()["settings"], (json{{"simulation.step", 0.2},
+                                        {"simulation.integrator", "rk2"},
+                                        {"simulation.duration", "4 s"}}));
+  EXPECT_EQ(member()["engines"]["bsm"]["evaluations"], 40);
+}
+
+TEST_F(Scsim, RunsOneEngineAloneWithoutAVerdict) {
+  const ProgramResult result = run_spinner({"--engine", "bsm", "--no-timing"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(report()["verdict"], "not_judged");
+  EXPECT_EQ(member()["engines"]["mujoco"]["status"], "skipped");
+  EXPECT_EQ(member()["agreement"], json::object());
+  EXPECT_FALSE(folder.has("out/mujoco.csv"));
+}
+
+TEST_F(Scsim, ReadsASpecFromStandardInput) {
+  const ProgramResult result = run({"-", "--no-timing"}, {kSpinner, {}});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("spinner   6 DOF: hub"));
+}
+
+TEST_F(Scsim, WritesNoFilesUnlessAsked) {
+  ASSERT_EQ(run({spinner, "--no-timing"}).exit_code, 0);
+  EXPECT_FALSE(folder.has("out"));
+}
+
+TEST_F(Scsim, IsSilentWhenQuiet) {
+  const ProgramResult result = run_spinner({"--quiet", "--no-timing", "--progress", "always"});
+  EXPECT_THAT(result.out, IsEmpty());
+  EXPECT_THAT(result.err, IsEmpty());
+  EXPECT_TRUE(folder.has("out/report.json"));
+}
+
+TEST_F(Scsim, NamesTheFlagThatWasMeant) {
+  const ProgramResult result = run_spinner({"--stepp", "0.1"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr("unknown flag `--stepp`"));
+  EXPECT_THAT(result.err, HasSubstr("did you mean `--step`?"));
+}
+
+TEST_F(Scsim, RefusesBadFlagValues) {
+  EXPECT_EQ(run_spinner({"--engine", "mujocco"}).exit_code, 2);
+  EXPECT_THAT(run_spinner({"--engine", "mujocco"}).err, HasSubstr("did you mean `mujoco`?"));
+  EXPECT_EQ(run_spinner({"--trials", "-1"}).exit_code, 2);
+  EXPECT_EQ(run_spinner({"--trials", "five"}).exit_code, 2);
+  EXPECT_EQ(run({}).exit_code, 2);
+}
+
+TEST_F(Scsim, HelpFitsOneScreen) {
+  const ProgramResult result = run({"--help"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_LE(std::count(result.out.begin(), result.out.end(), '\n'), 40);
+  EXPECT_THAT(result.out, HasSubstr("Example: scsim"));
+  EXPECT_THAT(run({"--version"}).out, HasSubstr(TWINCRAFT_VERSION));
+}
+
+TEST_F(Scsim, ExitsWithOneForAFaultySpec) {
+  const ProgramResult result = run_spinner({"--set", "hub.mass=-1"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, HasSubstr("error[SC"));
+  EXPECT_FALSE(folder.has("out/report.json"));
+}
+
+TEST_F(Scsim, ExitsWithOneForAReferenceThatDoesNotApply) {
+  const ProgramResult result = run_spinner({"--set", "loads.push.torque=[0.2, -0.3, 0.4]"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, HasSubstr("spin_up"));
+}
+
+TEST_F(Scsim, ExitsWithThreeForAMissingFileOrAnUnwritableFolder) {
+  EXPECT_EQ(run({folder.path() + "/missing.yaml"}).exit_code, 3);
+  const ProgramResult result = run({spinner, "--no-timing", "-o", spinner + "/out"});
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_THAT(result.out, HasSubstr("the engines agree"));  // the run itself is not lost
+}
+
+TEST_F(Scsim, ExitsWithFourAndSaysWhereWhenNumbersBreakDown) {
+  // A spring this stiff is far outside the stability of one step: rates grow without bound.
+  const ProgramResult result =
+      run({kQuickstart, "-o", folder.path() + "/out", "--no-timing", "--set",
+           "panels.wing_p.stiffness=1.0e12", "--duration", "20 s"});
+  EXPECT_EQ(result.exit_code, 4) << result.out << result.err;
+  EXPECT_THAT(result.err, HasSubstr("bsm failed"));
+  EXPECT_THAT(result.err, HasSubstr(" s"));
+  EXPECT_EQ(report()["complete"], false);
+  EXPECT_NE(report()["verdict"], "agree");
+  EXPECT_EQ(member()["engines"]["bsm"]["status"], "failed");
+  EXPECT_THAT(member()["engines"]["bsm"]["reason"].get<std::string>(), HasSubstr("t = "));
+}
+
+class Interrupted : public Scsim, public testing::WithParamInterface<std::pair<int, int>> {
+ protected:
+  /// A run of some hours, sent `signal` after a second.
+  ProgramResult interrupt(int signal, const std::string& progress = "auto") {
+    const auto send = [signal](pid_t child) {
+      std::this_thread::sleep_for(std::chrono::seconds(1));
+      kill(child, signal);
+    };
+    return run_spinner({"--duration", "1.0e9 s", "--set", "simulation.record=1000 s",  //
+                        "--progress", progress},
+                       {"", send});
+  }
+};
+
+TEST_P(Interrupted, WritesWhatItHasAndSaysItIsIncomplete) {
+  const auto [signal, code] = GetParam();
+  const ProgramResult result = interrupt(signal);
+  EXPECT_EQ(result.exit_code, code) << result.err;
+  EXPECT_EQ(report()["complete"], false);
+  EXPECT_EQ(report()["verdict"], "not_judged");
+  const json bsm = member()["engines"]["bsm"];
+  EXPECT_GT(bsm["t_end_s"], 0.0);
+  EXPECT_LT(bsm["t_end_s"], 1.0e9);
+  EXPECT_THAT(bsm["reason"].get<std::string>(), HasSubstr("interrupted at t = "));
+  EXPECT_EQ(member()["engines"]["mujoco"]["status"], "skipped");
+  EXPECT_TRUE(folder.has("out/bsm.csv"));
+}
+
+TEST_P(Interrupted, ShowsProgressOnlyOnATerminalOrWhenToldTo) {
+  EXPECT_THAT(interrupt(GetParam().first).err, IsEmpty());
+  EXPECT_THAT(interrupt(GetParam().first, "always").err, HasSubstr("bsm     ["));
+}
+
+INSTANTIATE_TEST_SUITE_P(BySignal, Interrupted,
+                         testing::Values(std::pair{SIGINT, 130}, std::pair{SIGTERM, 143}));
+
+}  // namespace
+}  // namespace twincraft

@@ -1,0 +1,100 @@
+// Claims about the IR's own arithmetic: masses, schedules, numbers.
+#include <gtest/gtest.h>
+
+#include <charconv>
+#include <random>
+
+#include "compiler/ir/mass.h"
+#include "compiler/ir/number.h"
+#include "compiler/ir/schedule.h"
+
+namespace twincraft {
+namespace {
+
+Matrix3d about_origin(const MassProperties& p) { return parallel_axis(p.I_PntC_L, p.mass, p.r_CL_L); }
+
+TEST(MassProperties, AddAboutAnyCommonPoint) {
+  const MassProperties a{3.0, {1.0, 2.0, -0.5}, Vector3d(2.0, 3.0, 4.0).asDiagonal()};
+  const MassProperties b{5.0, {-0.3, 0.7, 1.1}, Vector3d(6.0, 5.0, 4.5).asDiagonal()};
+  const MassProperties sum = a + b;
+  EXPECT_DOUBLE_EQ(sum.mass, 8.0);
+  EXPECT_LT((about_origin(sum) - about_origin(a) - about_origin(b)).norm(), 1e-13);
+  EXPECT_LT((sum.mass * sum.r_CL_L - a.mass * a.r_CL_L - b.mass * b.r_CL_L).norm(), 1e-14);
+}
+
+TEST(MassProperties, TakeOutAgainWhatWasPutIn) {
+  const MassProperties hub{600.0, {0.1, 0.0, 0.0}, Vector3d(400.0, 380.0, 360.0).asDiagonal()};
+  const MassProperties token{1e-6, {0.5, 0.2, 0.0}, Matrix3d::Zero()};
+  MassProperties minus = token;
+  minus.mass = -token.mass;
+  const MassProperties back = (hub + minus) + token;
+  EXPECT_NEAR(back.mass, hub.mass, 1e-12);
+  EXPECT_LT((back.r_CL_L - hub.r_CL_L).norm(), 1e-15);
+  EXPECT_LT((back.I_PntC_L - hub.I_PntC_L).norm(), 1e-12);
+}
+
+TEST(MassProperties, AMasslessTensorMovesNothing) {
+  const MassProperties hub{600.0, {0.1, 0.2, 0.3}, Matrix3d::Identity()};
+  const MassProperties wheel{0.0, {9.0, 9.0, 9.0}, 2.0 * Matrix3d::Identity()};
+  EXPECT_EQ((hub + wheel).r_CL_L, hub.r_CL_L);
+  EXPECT_EQ((wheel + hub).r_CL_L, hub.r_CL_L);
+  EXPECT_EQ((hub + wheel).I_PntC_L, 3.0 * Matrix3d::Identity());
+}
+
+TEST(PrincipalInertia, KeepsADiagonalTensorAsWritten) {
+  const PrincipalInertia p = principal_inertia(Vector3d(600.0, 900.0, 800.0).asDiagonal());
+  EXPECT_EQ(p.moments, Vector3d(600.0, 900.0, 800.0));
+  EXPECT_EQ(p.axes.coeffs(), Quaterniond::Identity().coeffs());
+}
+
+TEST(PrincipalInertia, RebuildsRandomTensorsToRounding) {
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  for (int i = 0; i < 300; ++i) {
+    const Matrix3d half = Matrix3d::NullaryExpr([&] { return uniform(random); });
+    const Matrix3d I = half * half.transpose() + 0.1 * Matrix3d::Identity();
+    const PrincipalInertia p = principal_inertia(I);
+    const Matrix3d R = p.axes.toRotationMatrix();
+    EXPECT_NEAR(R.determinant(), 1.0, 1e-14);
+    EXPECT_LT((R * p.moments.asDiagonal() * R.transpose() - I).norm(), 1e-14 * I.norm());
+  }
+}
+
+TEST(Schedule, IsPiecewiseConstantAndRightContinuous) {
+  const Schedule s{{{1.0, 10.0}, {2.0, 20.0}}};
+  EXPECT_EQ(s.at(0.999), 0.0);
+  EXPECT_EQ(s.at(1.0), 10.0);
+  EXPECT_EQ(s.at(1.999), 10.0);
+  EXPECT_EQ(s.at(2.0), 20.0);
+  EXPECT_EQ(s.at(1e9), 20.0);
+  EXPECT_EQ(Schedule::constant(3.0).at(-1e300), 3.0);
+}
+
+TEST(Schedule, OpensAndClosesWithItsIntervals) {
+  const Schedule s = Schedule{{{0.0, 1.0}, {5.0, 2.0}}}.during({{1.0, 3.0}, {3.0, 6.0}});
+  EXPECT_EQ(s.at(0.5), 0.0);
+  EXPECT_EQ(s.at(1.0), 1.0);
+  EXPECT_EQ(s.at(3.0), 1.0);
+  EXPECT_EQ(s.at(5.0), 2.0);
+  EXPECT_EQ(s.at(6.0), 0.0);
+  EXPECT_EQ(event_times({&s}, 100.0), (std::vector<double>{1.0, 3.0, 5.0, 6.0}));
+  EXPECT_EQ(event_times({&s}, 4.0), (std::vector<double>{1.0, 3.0}));
+}
+
+TEST(Number, IsTheShortestTextThatReadsBackEqual) {
+  EXPECT_EQ(shortest(0.1), "0.1");
+  EXPECT_EQ(shortest(1e-6), "1e-06");
+  EXPECT_EQ(shortest(7e6), "7e+06");
+  std::mt19937_64 random(2);
+  std::uniform_real_distribution<double> uniform(-1e9, 1e9);
+  for (int i = 0; i < 1000; ++i) {
+    const double value = uniform(random);
+    const std::string text = shortest(value);
+    double back = 0.0;
+    std::from_chars(text.data(), text.data() + text.size(), back);
+    EXPECT_EQ(back, value);
+  }
+}
+
+}  // namespace
+}  // namespace twincraft

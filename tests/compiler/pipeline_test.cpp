@@ -1,0 +1,98 @@
+// From text to bundle: stages stop after errors, and what comes out depends on the text alone.
+#include "compiler/pipeline.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+namespace twincraft {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::Contains;
+using testing::HasSubstr;
+using testing::SizeIs;
+
+class Pipeline : public testing::Test {
+ protected:
+  CompileResult compile_text(const std::string& text, std::vector<std::string> overrides = {}) {
+    const fs::path path =
+        fs::path(testing::TempDir()) /
+        (std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + ".yaml");
+    std::ofstream(path) << text;
+    CompileResult result = compile({path.string(), std::move(overrides)}, sources_, diagnostics_);
+    fs::remove(path);
+    return result;
+  }
+
+  std::vector<Code> codes() const {
+    std::vector<Code> found;
+    for (const Diagnostic& diagnostic : diagnostics_.all()) found.push_back(diagnostic.code);
+    return found;
+  }
+
+  Sources sources_;
+  Diagnostics diagnostics_;
+};
+
+constexpr const char* kBrick =
+    "format: spacecraft/1\nname: brick\nhub: {mass: 600 kg, inertia: [400, 380, 360]}\n"
+    "simulation: {integrator: rk4, step: 0.1 s, duration: 1 s, record: 0.5 s}\n";
+
+TEST_F(Pipeline, CompilesTheSmallestSpecWithoutAWord) {
+  const CompileResult result = compile_text(kBrick);
+  ASSERT_TRUE(result.bundle);
+  EXPECT_THAT(diagnostics_.all(), SizeIs(0));
+  EXPECT_EQ(result.bundle->model.name, "brick");
+  EXPECT_THAT(result.bundle->mjcf, HasSubstr("brick"));
+  EXPECT_EQ(result.bundle->spec_sha256, sha256(kBrick));
+  EXPECT_EQ(nlohmann::json::parse(result.bundle->resolved_json)["hub"]["mass"], 600.0);
+}
+
+TEST_F(Pipeline, StopsAfterTheStageThatFoundFaults) {
+  // The unknown key belongs to reading; the impossible inertia would be found by checking.
+  const CompileResult result =
+      compile_text(std::string(kBrick) + "wheel: []\n", {"hub.inertia=[1, 1, 5]"});
+  EXPECT_FALSE(result.bundle);
+  EXPECT_EQ(codes(), (std::vector<Code>{Code::kUnknownKey}));
+}
+
+TEST_F(Pipeline, ReportsEveryFaultOfAStage) {
+  compile_text("format: spacecraft/1\nname: brick\nhub: {mass: -1, inertia: 3, colour: red}\n");
+  EXPECT_GE(diagnostics_.error_count(), 3u);
+}
+
+TEST_F(Pipeline, AppliesOverridesBeforeReading) {
+  const CompileResult result = compile_text(kBrick, {"hub.mass=1 t"});
+  ASSERT_TRUE(result.bundle);
+  EXPECT_EQ(result.bundle->model.assembly.links[0].elements[0].mass, 1000.0);
+  EXPECT_EQ(result.bundle->spec_sha256, sha256(kBrick));  // of the file as it is on disk
+}
+
+TEST_F(Pipeline, ReportsABadOverrideAsAFault) {
+  EXPECT_FALSE(compile_text(kBrick, {"hub.mass"}).bundle);
+  EXPECT_THAT(codes(), Contains(Code::kOverrideForm));
+}
+
+TEST_F(Pipeline, CannotReadWhatIsNotThere) {
+  const CompileResult result = compile({"/no/such/spec.yaml", {}}, sources_, diagnostics_);
+  EXPECT_FALSE(result.bundle);
+  EXPECT_THAT(result.io_error, HasSubstr("no such file"));
+}
+
+TEST(Sha256, MatchesThePublishedExamples) {  // FIPS 180-2, appendix B
+  EXPECT_EQ(sha256("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  EXPECT_EQ(sha256(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+}
+
+TEST(JsonSchema, SaysHowItIsMadeAgain) {
+  const auto schema = nlohmann::json::parse(json_schema());
+  EXPECT_THAT(schema["$comment"].get<std::string>(), HasSubstr("sccompile --schema"));
+  EXPECT_EQ(schema["additionalProperties"], false);
+}
+
+}  // namespace
+}  // namespace twincraft

@@ -1,0 +1,178 @@
+// The battery every component must pass, on a vehicle made of it: both engines give the same
+// accelerations at random states, the hub matrix is symmetric positive definite, the books of
+// energy and momentum balance, and nothing depends on where the vehicle is or how fast it drifts.
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <limits>
+
+#include "compiler/diag/print.h"
+#include "compiler/pipeline.h"
+#include "runtime/bsm/engine.h"
+#include "runtime/mujoco/engine.h"
+#include "runtime/study/conservation.h"
+#include "runtime/study/propagate.h"
+#include "runtime/study/random_state.h"
+
+namespace twincraft {
+namespace {
+
+Bundle compiled(const std::string& vehicle, const std::vector<std::string>& overrides = {}) {
+  Sources sources;
+  Diagnostics diagnostics;
+  const std::string file =
+      std::string(TWINCRAFT_ROOT) + "/tests/components/vehicles/" + vehicle + ".yaml";
+  CompileResult result = compile({file, overrides}, sources, diagnostics);
+  EXPECT_EQ(diagnostics.error_count(), 0u) << to_text(diagnostics, {});
+  return result.bundle.value();
+}
+
+std::span<const double> span_of(const Eigen::VectorXd& v) {
+  return {v.data(), static_cast<std::size_t>(v.size())};
+}
+
+/// v_B, omega, joint rates and wheel rates differentiated, whatever the attitude chart.
+Eigen::VectorXd accelerations(Engine& engine, const RandomState& state) {
+  const StateLayout& at = engine.layout();
+  const Eigen::VectorXd x = state_vector(state, at);
+  Eigen::VectorXd rate(x.size());
+  engine.hold_inputs(state.time);
+  engine.derivative(state.time, span_of(x), {rate.data(), static_cast<std::size_t>(rate.size())});
+  Eigen::VectorXd all(6 + at.joints + at.wheels);
+  all << rate.segment<3>(StateLayout::velocity()), rate.segment<3>(at.rate()),
+      rate.segment(at.joint_rate(), at.joints), rate.segment(at.wheel(), at.wheels);
+  return all;
+}
+
+/// MuJoCo forms m Omega^2 r of a wheel that spins off the system's centre before it cancels: what
+/// rounding then leaves of the hub's acceleration [m/s^2].
+double spin_rounding(const Model& model, const RandomState& state) {
+  double force = 0.0, mass = 0.0;
+  for (const Link& link : model.assembly.links) {
+    for (const MassElement& element : link.elements) mass += element.mass;
+  }
+  for (const TreeWheel& wheel : model.tree.wheels) {
+    const double Omega = state.wheel_rate[static_cast<std::size_t>(wheel.rotor)];
+    for (const TreeBody& body : model.tree.bodies) {
+      if (body.name == wheel.joint) force += body.inertial.mass * Omega * Omega * body.pos.norm();
+    }
+  }
+  return std::numeric_limits<double>::epsilon() * force / mass;
+}
+
+class Battery : public testing::TestWithParam<const char*> {
+ protected:
+  Bundle bundle_ = compiled(GetParam());
+  std::unique_ptr<Engine> bsm_ = make_bsm_engine(bundle_.model);
+  std::unique_ptr<Engine> mujoco_ = make_mujoco_engine(bundle_.model, bundle_.mjcf);
+};
+
+TEST_P(Battery, GivesTheSameAccelerationsInBothEngines) {
+  for (const RandomState& state : random_states(bundle_.model, 200)) {
+    const Eigen::VectorXd a = accelerations(*bsm_, state);
+    const Eigen::VectorXd b = accelerations(*mujoco_, state);
+    const int joints = bsm_->layout().joints, wheels = bsm_->layout().wheels;
+    // Block by block, so that a large block hides no small one.
+    EXPECT_LT((a - b).head<3>().norm(),
+              1e-11 * b.head<3>().norm() + 2.0 * spin_rounding(bundle_.model, state));
+    EXPECT_LT((a - b).segment<3>(3).norm(), 1e-11 * b.segment<3>(3).norm());
+    EXPECT_LE((a - b).segment(6, joints).norm(), 1e-11 * b.segment(6, joints).norm());
+    EXPECT_LE((a - b).tail(wheels).norm(), 1e-11 * b.tail(wheels).norm());
+  }
+}
+
+TEST_P(Battery, KeepsTheHubMatrixSymmetricPositiveDefinite) {
+  for (const RandomState& state : random_states(bundle_.model, 20)) {
+    const Eigen::VectorXd x = state_vector(state, bsm_->layout());
+    const Eigen::MatrixXd M = bsm_->mass_matrix(span_of(x));
+    const Eigen::VectorXd y = state_vector(state, mujoco_->layout());
+    EXPECT_LT((M - mujoco_->mass_matrix(span_of(y))).norm(), 1e-12 * M.norm());
+    EXPECT_LT((M - M.transpose()).norm(), 1e-14 * M.norm());
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(M);
+    EXPECT_GT(solver.eigenvalues()[0], 0.0);
+  }
+}
+
+TEST_P(Battery, FeelsNothingOfACommonVelocityOrPlaceWithoutGravity) {
+  Model free = bundle_.model;
+  free.gravity = {};
+  const auto bsm = make_bsm_engine(free);
+  const auto mujoco = make_mujoco_engine(free, bundle_.mjcf);
+  for (RandomState state : random_states(free, 20)) {
+    const Eigen::VectorXd a = accelerations(*bsm, state), b = accelerations(*mujoco, state);
+    state.r_BN_N += Vector3d(7e6, -3e6, 1e6);
+    state.v_BN_N += Vector3d(-2e3, 7e3, 1e3);
+    EXPECT_EQ(a, accelerations(*bsm, state));
+    EXPECT_EQ(b, accelerations(*mujoco, state));
+  }
+}
+
+TEST_P(Battery, BalancesItsBooks) {
+  Model tight = bundle_.model;
+  tight.simulation.method = Method::kRkf78;
+  const Tolerance fine{1e-13, 1e-13};
+  tight.simulation.tolerance = {fine, fine, fine, fine, fine, fine, fine};
+  for (Engine* engine : {bsm_.get(), mujoco_.get()}) {
+    const Trajectory run = propagate(*engine, tight);
+    ASSERT_EQ(run.status, Trajectory::Status::kComplete) << run.failure;
+    const Conservation kept = conservation_of(run);
+    // The tolerance times some hundred steps.
+    EXPECT_LT(kept.energy, 1e-11) << engine->name();
+    EXPECT_LT(kept.momentum, 1e-11) << engine->name();
+    EXPECT_LT(kept.angular_momentum, 1e-11) << engine->name();
+  }
+}
+
+/// Only where truncation stands above rounding.
+class Truncation : public Battery {};
+
+TEST_P(Truncation, LeavesTheBooksToFourthOrder) {
+  Bundle coarse = bundle_;
+  const auto energy = [&](double step) {
+    coarse.model.simulation.step = step;
+    return conservation_of(propagate(*bsm_, coarse.model)).energy;
+  };
+  const double step = 4.0 * bundle_.model.simulation.step;
+  const double ratio = energy(step) / energy(0.5 * step);
+  EXPECT_GT(ratio, 12.0);  // 2^4, or 2^5 where the fourth-order term cancels
+  EXPECT_LT(ratio, 80.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Components, Battery,
+                         testing::Values("hub", "wheel", "panel", "chain", "damped", "gravity"),
+                         [](const auto& param_info) { return param_info.param; });
+
+INSTANTIATE_TEST_SUITE_P(Components, Truncation,
+                         testing::Values("panel", "chain", "damped", "gravity"),
+                         [](const auto& param_info) { return param_info.param; });
+
+/// Limits: a component that vanishes must leave the vehicle without it.
+TEST(Limits, APanelOfVanishingMassLeavesTheHubAlone) {
+  const Bundle with = compiled("panel", {"panels.*.mass=1.0e-9",
+                                         "panels.wing_p.inertia=[3.0e-9, "
+                                         "2.0e-9, 1.2e-9]",
+                                         "panels.*.stiffness=0"});
+  const Bundle without = compiled("panel", {"panels=null"});
+  const auto engine = make_bsm_engine(with.model);
+  const auto bare = make_bsm_engine(without.model);
+  const Eigen::VectorXd a = accelerations(*engine, undisturbed(with.model));
+  const Eigen::VectorXd b = accelerations(*bare, undisturbed(without.model));
+  // The panel's mass and inertia are 1e-11 of the hub's.
+  EXPECT_LT((a - b).segment<3>(3).norm(), 1e-9 * b.segment<3>(3).norm());
+  EXPECT_GT(b.segment<3>(3).norm(), 1e-6);
+}
+
+TEST(Limits, AWheelWithoutMotorOrSpinIsDeadWeight) {
+  const Bundle with = compiled("wheel", {"wheels.*.torque=0", "wheels.*.speed=0"});
+  const auto engine = make_bsm_engine(with.model);
+  const RandomState state = undisturbed(with.model);
+  const Eigen::VectorXd a = accelerations(*engine, state);
+  // A free wheel keeps its absolute spin about its axis: OmegaDot = -g . omegaDot.
+  for (std::size_t k = 0; k < with.model.assembly.rotors.size(); ++k) {
+    const double expected = -with.model.assembly.rotors[k].axis_L.dot(a.segment<3>(3));
+    EXPECT_NEAR(a[6 + static_cast<Eigen::Index>(k)], expected, 1e-15);
+  }
+}
+
+}  // namespace
+}  // namespace twincraft

@@ -1,0 +1,94 @@
+// Claims about the timing protocol: which runs, in which order, and what is made of them.
+#include "runtime/study/timing.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <thread>
+
+namespace twincraft {
+namespace {
+
+using testing::ElementsAre;
+
+class Protocol : public testing::Test {
+ protected:
+  TimedEngine contestant(const std::string& name) {
+    return {name, [this, name] {
+              log.push_back(name);
+              return std::size_t{100};
+            }};
+  }
+  std::vector<std::string> log;
+  std::vector<TimedEngine> both{contestant("bsm"), contestant("mujoco")};
+  MayGoOn always = [](int, int) { return true; };
+};
+
+TEST_F(Protocol, WarmsUpOnceThenReversesTheOrderOnAlternateRounds) {
+  time_engines(both, 3, always);
+  EXPECT_THAT(log, ElementsAre("bsm", "mujoco",  // warm-up
+                               "bsm", "mujoco",  //
+                               "mujoco", "bsm",  //
+                               "bsm", "mujoco"));
+}
+
+TEST_F(Protocol, DiscardsTheWarmUp) {
+  const Timing timing = time_engines(both, 5, always);
+  ASSERT_EQ(timing.engines.size(), 2u);
+  EXPECT_EQ(timing.engines[0].trials.size(), 5u);
+  EXPECT_EQ(timing.engines[1].trials.size(), 5u);
+  EXPECT_EQ(timing.engines[1].steps, 100u);
+  EXPECT_TRUE(timing.complete());
+  EXPECT_EQ(protocol(timing), "warmup=1 trials=5 interleaved reversed");
+}
+
+TEST_F(Protocol, AsksBeforeEveryRunAndStopsWhenTold) {
+  const Timing timing = time_engines(both, 3, [](int done, int planned) {
+    EXPECT_EQ(planned, 8);
+    return done < 4;
+  });
+  EXPECT_EQ(log.size(), 4u);
+  EXPECT_FALSE(timing.complete());
+  EXPECT_FALSE(timing.ratio().has_value());
+}
+
+TEST_F(Protocol, MeasuresTheRunAndNothingElse) {
+  const std::vector<TimedEngine> sleeper{{"bsm", [] {
+                                            std::this_thread::sleep_for(
+                                                std::chrono::milliseconds(20));
+                                            return std::size_t{10};
+                                          }}};
+  const Timing timing = time_engines(sleeper, 1, [](int, int) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    return true;
+  });
+  EXPECT_GE(timing.engines[0].median(), 0.020);
+  EXPECT_LT(timing.engines[0].median(), 0.300);
+  EXPECT_DOUBLE_EQ(timing.engines[0].per_step(), timing.engines[0].median() / 10.0);
+}
+
+TEST_F(Protocol, LetsAFailureThrough) {
+  const std::vector<TimedEngine> broken{
+      {"bsm", []() -> std::size_t { throw NumericalFailure("not finite"); }}};
+  EXPECT_THROW(time_engines(broken, 1, always), NumericalFailure);
+}
+
+TEST(Ratio, IsTheFirstEngineOverTheSecond) {
+  const Timing timing{3, {{"bsm", {1.0, 2.0, 9.0}, 1}, {"mujoco", {8.0, 10.0, 4.0}, 1}}};
+  EXPECT_EQ(timing.ratio(), 0.25);
+}
+
+TEST(Ratio, OfOneEngineDoesNotExist) {
+  const Timing timing{1, {{"bsm", {1.0}, 1}}};
+  EXPECT_FALSE(timing.ratio().has_value());
+}
+
+TEST(Median, IsTheMiddleOrTheMeanOfTheMiddleTwo) {
+  EXPECT_EQ(median({3.0, 1.0, 2.0}), 2.0);
+  EXPECT_EQ(median({4.0, 1.0, 2.0, 100.0}), 3.0);
+  EXPECT_EQ(median({7.0}), 7.0);
+}
+
+}  // namespace
+}  // namespace twincraft
