@@ -9,11 +9,11 @@
 namespace twincraft {
 
 struct Observation {
-  double time = 0.0;        // [s]
-  Vector3d r_BN_N, v_BN_N;  // hub origin [m], [m/s]
-  Quaterniond q_BN;         // B to N components, scalar not negative
-  Vector3d omega_BN_B;      // [rad/s]
-  Vector3d r_CN_N, v_CN_N;  // system centre of mass
+  double time = 0.0;                   // [s]
+  Vector3d r_BN_N, v_BN_N;             // hub origin [m], [m/s]
+  Quaterniond q_BN;                    // B to N components, scalar not negative
+  Vector3d omega_BN_B;                 // [rad/s]
+  Vector3d r_CN_N, v_CN_N;             // system centre of mass
   std::vector<double> joint_position;  // [rad] or [m], one per link but the hub
   std::vector<double> joint_rate;
   std::vector<double> wheel_rate;  // [rad/s] relative to the mount
@@ -21,7 +21,7 @@ struct Observation {
 
   // The books of conservation, of the engine's own masses.
   double kinetic = 0.0;    // [J] in N
-  double potential = 0.0;  // [J] springs, and gravity as -sum mu m/r (system_com: of the total at C)
+  double potential = 0.0;  // [J] springs; gravity as -sum mu m/r (system_com: of all mass at C)
   Vector3d momentum;       // [kg m/s] in N
   Vector3d H_PntC_N;       // [kg m^2/s] angular momentum about C
   // Sums of the magnitudes of what is added up (momentum: of the hub origin's velocity and of each
@@ -32,8 +32,8 @@ struct Observation {
 
 /// Rates of what changes the books from outside; integrated beside the state when asked for.
 struct ExternalRates {
-  double power = 0.0;                     // [W] efforts, motors, loads, gradient torques, minus damping
-  Vector3d force_N = Vector3d::Zero();    // [N] gravity included
+  double power = 0.0;  // [W] efforts, motors, loads, gradient torques, minus damping
+  Vector3d force_N = Vector3d::Zero();        // [N] gravity included
   Vector3d torque_PntC_N = Vector3d::Zero();  // [N m] about C
 };
 

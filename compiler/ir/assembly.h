@@ -17,19 +17,19 @@ enum class JointKind { kHinge, kSlide };
 /// a slide moves it by +q along axis_L. Effort on the joint: u(t) - k (q - rest) - c qDot.
 struct Joint {
   JointKind kind = JointKind::kHinge;
-  Vector3d r_HP_P = Vector3d::Zero();         // [m] joint from the parent's origin, parent axes
-  Matrix3d dcm_PL0 = Matrix3d::Identity();    // link to parent components at q = 0
-  Vector3d axis_L = Vector3d::UnitZ();        // unit vector, link axes
-  double stiffness = 0.0;                     // k [N m/rad] or [N/m]
-  double damping = 0.0;                       // c [N m s/rad] or [N s/m]
-  double rest = 0.0;                          // [rad] or [m]
-  Schedule effort;                            // u [N m] or [N]
+  Vector3d r_HP_P = Vector3d::Zero();       // [m] joint from the parent's origin, parent axes
+  Matrix3d dcm_PL0 = Matrix3d::Identity();  // link to parent components at q = 0
+  Vector3d axis_L = Vector3d::UnitZ();      // unit vector, link axes
+  double stiffness = 0.0;                   // k [N m/rad] or [N/m]
+  double damping = 0.0;                     // c [N m s/rad] or [N s/m]
+  double rest = 0.0;                        // [rad] or [m]
+  Schedule effort;                          // u [N m] or [N]
 };
 
 struct Link {
-  std::string name;    // `hub`, `wing_p.1`
-  int parent = -1;     // index of the parent link; -1 for the hub only
-  Joint joint;         // unused for the hub
+  std::string name;                   // `hub`, `wing_p.1`
+  int parent = -1;                    // index of the parent link; -1 for the hub only
+  Joint joint;                        // unused for the hub
   std::vector<MassElement> elements;  // what the ledger puts on this link
 };
 

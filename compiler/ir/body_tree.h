@@ -22,11 +22,11 @@ struct TreeJoint {
 struct TreeBody {
   std::string name;
   int parent = -1;
-  int link = -1;                           // the link of the analytic half it stands for; wheels: -1
-  Vector3d pos = Vector3d::Zero();         // [m] in the parent's axes
+  int link = -1;                    // the link of the analytic half it stands for; wheels: -1
+  Vector3d pos = Vector3d::Zero();  // [m] in the parent's axes
   Quaterniond quat = Quaterniond::Identity();  // body to parent
-  std::vector<TreeJoint> joints;           // none: welded. The hub's free joint is implied.
-  MassProperties inertial;                 // about its own centre of mass, body axes, as emitted
+  std::vector<TreeJoint> joints;               // none: welded. The hub's free joint is implied.
+  MassProperties inertial;  // about its own centre of mass, body axes, as emitted
   // What gravity pulls on: the ledger's elements on this body plus token masses that were added on
   // top. A token mass taken back out of its mount is no element.
   std::vector<MassElement> elements;

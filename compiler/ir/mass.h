@@ -15,9 +15,9 @@ using Eigen::Vector3d;
 
 /// One entry of the mass ledger: a lump fixed in the axes of the link that carries it.
 struct MassElement {
-  std::string name;                     // the component that declares it
-  double mass = 0.0;                    // [kg]; zero for the tensor of a massless wheel
-  Vector3d r_EL_L = Vector3d::Zero();   // [m] its centre of mass E from the link's origin
+  std::string name;                      // the component that declares it
+  double mass = 0.0;                     // [kg]; zero for the tensor of a massless wheel
+  Vector3d r_EL_L = Vector3d::Zero();    // [m] its centre of mass E from the link's origin
   Matrix3d I_PntE_L = Matrix3d::Zero();  // [kg m^2] about E, link axes
 };
 

@@ -47,13 +47,13 @@ struct Gravity {
 
 /// Everything at t = 0, already resolved to the hub origin B; both engines start here.
 struct InitialState {
-  Vector3d r_BN_N = Vector3d::Zero();     // [m]
-  Vector3d v_BN_N = Vector3d::Zero();     // [m/s]
+  Vector3d r_BN_N = Vector3d::Zero();          // [m]
+  Vector3d v_BN_N = Vector3d::Zero();          // [m/s]
   Quaterniond q_BN = Quaterniond::Identity();  // B to N components
-  Vector3d omega_BN_B = Vector3d::Zero();  // [rad/s]
-  std::vector<double> joint_position;     // one per link but the hub
+  Vector3d omega_BN_B = Vector3d::Zero();      // [rad/s]
+  std::vector<double> joint_position;          // one per link but the hub
   std::vector<double> joint_rate;
-  std::vector<double> rotor_speed;        // [rad/s] relative to the mount
+  std::vector<double> rotor_speed;  // [rad/s] relative to the mount
 };
 
 enum class Method { kEuler, kRk2, kRk4, kRkf45, kRkf78 };
@@ -103,10 +103,10 @@ struct Agreement {
 struct Orbit {
   double semi_major_axis = 0.0;  // [m]
   double eccentricity = 0.0;
-  double inclination = 0.0;             // [rad]
-  double raan = 0.0;                    // [rad]
-  double argument_of_periapsis = 0.0;   // [rad]
-  double true_anomaly = 0.0;            // [rad]
+  double inclination = 0.0;            // [rad]
+  double raan = 0.0;                   // [rad]
+  double argument_of_periapsis = 0.0;  // [rad]
+  double true_anomaly = 0.0;           // [rad]
 };
 
 enum class ReferenceKind { kKepler, kSpinUp };

@@ -15,12 +15,6 @@ Vector3d value_at(const std::array<Schedule, 3>& schedules, double time) {
   return {schedules[0].at(time), schedules[1].at(time), schedules[2].at(time)};
 }
 
-void add(Wrench& wrench, const Vector3d& r_FB_W, const Vector3d& force_W,
-         const Vector3d& torque_W) {
-  wrench.force_W += force_W;
-  wrench.torque_PntB_W += torque_W + r_FB_W.cross(force_W);
-}
-
 }  // namespace
 
 Vector3d point_gravity(double mu, const Vector3d& r) {
@@ -60,9 +54,11 @@ ForceModel::ForceModel(const Model& model, GravityLaw law,
 void ForceModel::hold(double time) {
   acting_loads_.clear();
   for (const Load& load : loads_) {
-    const HeldLoad held{load.link, !load.r_FL_L.has_value(), value_at(load.force_L, time),
-                        value_at(load.torque_L, time), load.r_FL_L.value_or(Vector3d::Zero())};
-    if (!held.force_L.isZero(0.0) || !held.torque_L.isZero(0.0)) acting_loads_.push_back(held);
+    const Vector3d force_L = value_at(load.force_L, time), torque_L = value_at(load.torque_L, time);
+    const bool pushes = !force_L.isZero(0.0);
+    if (!pushes && torque_L.isZero(0.0)) continue;
+    acting_loads_.push_back({load.link, pushes, !load.r_FL_L.has_value(), force_L, torque_L,
+                             load.r_FL_L.value_or(Vector3d::Zero())});
   }
 }
 
@@ -97,11 +93,12 @@ void ForceModel::apply_gravity(const Vector3d& r_BN_W, std::span<const LinkPose>
       g = frame_ == FieldFrame::kFalling ? gravity_difference(mu_, r_BN_W, r_EB_W)
                                          : point_gravity(mu_, r_BN_W + r_EB_W);
     }
-    Vector3d torque = Vector3d::Zero();
+    const Vector3d force_W = e.mass * g;
+    wrenches[link].force_W += force_W;
+    wrenches[link].torque_PntB_W += r_EB_W.cross(force_W);
     if (law_ == GravityLaw::kBodyGradient) {
-      torque = gradient_torque(e, r_BN_W + r_EB_W, links[link].dcm_WL);
+      wrenches[link].torque_PntB_W += gradient_torque(e, r_BN_W + r_EB_W, links[link].dcm_WL);
     }
-    add(wrenches[link], r_EB_W, e.mass * g, torque);
   }
 }
 
@@ -109,9 +106,13 @@ void ForceModel::apply_loads(std::span<const LinkPose> links, std::span<Wrench> 
   for (const HeldLoad& load : acting_loads_) {
     const auto link = static_cast<std::size_t>(load.link);
     const LinkPose& pose = links[link];
-    const Vector3d r_FB_W =
-        load.at_system_com ? center_of_mass(links) : pose.r_LB_W + pose.dcm_WL * load.r_FL_L;
-    add(wrenches[link], r_FB_W, pose.dcm_WL * load.force_L, pose.dcm_WL * load.torque_L);
+    wrenches[link].torque_PntB_W += pose.dcm_WL * load.torque_L;
+    if (!load.pushes) continue;
+    const Vector3d force_W = pose.dcm_WL * load.force_L;
+    const Vector3d r_FB_W = load.at_system_com ? center_of_mass(links)
+                                               : Vector3d(pose.r_LB_W + pose.dcm_WL * load.r_FL_L);
+    wrenches[link].force_W += force_W;
+    wrenches[link].torque_PntB_W += r_FB_W.cross(force_W);
   }
 }
 

@@ -70,6 +70,7 @@ class ForceModel {
   };
   struct HeldLoad {
     int link;
+    bool pushes;  // has a force
     bool at_system_com;
     Vector3d force_L, torque_L, r_FL_L;
   };

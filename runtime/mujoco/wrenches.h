@@ -23,7 +23,7 @@ class WrenchProjector {
 
  private:
   std::vector<int> link_body_;
-  std::vector<Eigen::Matrix<double, 6, 1>> subtree_;  // per body: (torque about C, force)
+  std::vector<Wrench> subtree_;  // per body, of all outboard of it
 };
 
 }  // namespace twincraft

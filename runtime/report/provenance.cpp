@@ -3,9 +3,9 @@
 
 #include <fmt/format.h>
 #include <mujoco/mujoco.h>
-#include <stdlib.h>
 
 #include <Eigen/Core>
+#include <cstdlib>
 #include <fstream>
 #include <thread>
 

@@ -11,7 +11,9 @@
 namespace twincraft {
 namespace {
 
-Matrix3d about_origin(const MassProperties& p) { return parallel_axis(p.I_PntC_L, p.mass, p.r_CL_L); }
+Matrix3d about_origin(const MassProperties& p) {
+  return parallel_axis(p.I_PntC_L, p.mass, p.r_CL_L);
+}
 
 TEST(MassProperties, AddAboutAnyCommonPoint) {
   const MassProperties a{3.0, {1.0, 2.0, -0.5}, Vector3d(2.0, 3.0, 4.0).asDiagonal()};
