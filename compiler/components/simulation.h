@@ -44,9 +44,9 @@ struct BlockTolerancesSpec : Written {
 struct SimulationSpec : Written {
   SimulationMode mode = SimulationMode::kFull;
   Method integrator = Method::kRk4;
-  std::variant<StepRule, double> step{0.0};  // [s]
+  std::variant<StepRule, double> step{0.01};  // [s]
   std::variant<BlockTolerancesSpec, double> tolerance{kDefaultTolerance};
-  double duration = 0.0;         // [s]
+  double duration = 10.0;        // [s]
   std::optional<double> record;  // [s] absent: about 200 samples
 };
 

@@ -49,7 +49,7 @@ const Table<Spec>& spec_table() {
                    "Default: deep space."),
           optional("initial", &Spec::initial, object(initial_table()),
                    "Default: at rest at the origin of N."),
-          required("simulation", &Spec::simulation, object(simulation_table()),
+          optional("simulation", &Spec::simulation, object(simulation_table()),
                    "Integrator, step, duration."),
           optional("engines", &Spec::engines, object(engines_table()),
                    "Controls of the comparison."),

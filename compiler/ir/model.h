@@ -99,16 +99,6 @@ struct Agreement {
   std::optional<double> mass;      // [kg]
 };
 
-/// Osculating elements of the spec's `initial.orbit`, for those who start from one.
-struct Orbit {
-  double semi_major_axis = 0.0;  // [m]
-  double eccentricity = 0.0;
-  double inclination = 0.0;            // [rad]
-  double raan = 0.0;                   // [rad]
-  double argument_of_periapsis = 0.0;  // [rad]
-  double true_anomaly = 0.0;           // [rad]
-};
-
 enum class ReferenceKind { kKepler, kSpinUp };
 
 struct Model {

@@ -82,7 +82,7 @@ initial: {attitude: {align: [{axis: -z, to: [1, 2, 3]}, {axis: y, to: [0, 1, 0]}
 
 TEST(Spec, HasASchemaOfItsSections) {
   const Json schema = spec_table().schema();
-  EXPECT_EQ(schema.at("required"), Json::array({"format", "name", "hub", "simulation"}));
+  EXPECT_EQ(schema.at("required"), Json::array({"format", "name", "hub"}));
   EXPECT_TRUE(schema.at("properties").contains("panels"));
 }
 
