@@ -4,7 +4,11 @@ target_compile_options(sc_options INTERFACE -Wall -Wextra -Wshadow -Wconversion 
                                             -ffp-contract=off)
 # One include root: every include names its room, so the arrows between rooms can be read.
 target_include_directories(sc_options INTERFACE ${PROJECT_SOURCE_DIR})
-target_compile_definitions(sc_options INTERFACE TWINCRAFT_VERSION="${PROJECT_VERSION}")
+# Packets of two doubles in vectors of three cost a store that the next load must wait for: without
+# them the analytic engine takes the same instructions and two thirds of the time. One definition
+# for all targets, because it changes how Eigen lays out and allocates its types.
+target_compile_definitions(sc_options INTERFACE TWINCRAFT_VERSION="${PROJECT_VERSION}"
+                                                EIGEN_DONT_VECTORIZE)
 
 option(TWINCRAFT_SANITIZE "Build with AddressSanitizer and UndefinedBehaviorSanitizer" OFF)
 if(TWINCRAFT_SANITIZE)

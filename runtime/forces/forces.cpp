@@ -33,7 +33,7 @@ Vector3d gravity_difference(double mu, const Vector3d& r, const Vector3d& x) {
 
 ForceModel::ForceModel(const Model& model, GravityLaw law,
                        const std::vector<std::vector<MassElement>>& elements, FieldFrame frame)
-    : mu_(model.gravity.mu), law_(law), frame_(frame), gravity_acts_(false), loads_(model.loads) {
+    : mu_(model.gravity.mu), law_(law), frame_(frame), loads_(model.loads) {
   for (std::size_t link = 0; link < elements.size(); ++link) {
     for (const MassElement& element : elements[link]) {
       if (element.mass <= 0.0) continue;

@@ -85,7 +85,7 @@ class ForceModel {
   double mu_;
   GravityLaw law_;
   FieldFrame frame_;
-  bool gravity_acts_;  // links feel more than the common fall
+  bool gravity_acts_ = false;  // links feel more than the common fall
   std::vector<Element> elements_;
   double mass_ = 0.0;
   std::vector<Load> loads_;
