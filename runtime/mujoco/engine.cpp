@@ -67,9 +67,10 @@ Matrix3d dcm_of(const double* q) {
   return Quaterniond(q[0], q[1], q[2], q[3]).normalized().toRotationMatrix();
 }
 
-// qDot = 1/2 q (x) (0, omega_BN_B), scalar first.
+// qDot = 1/2 q (x) (0, omega_BN_B), scalar first, of the normalised quaternion, as MuJoCo reads it.
 void write_quaternion_rate(const double* q, const double* omega, double* rate) {
-  const double w = 0.5 * q[0], x = 0.5 * q[1], y = 0.5 * q[2], z = 0.5 * q[3];
+  const double half = 0.5 / std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+  const double w = half * q[0], x = half * q[1], y = half * q[2], z = half * q[3];
   rate[0] = -x * omega[0] - y * omega[1] - z * omega[2];
   rate[1] = w * omega[0] + y * omega[2] - z * omega[1];
   rate[2] = w * omega[1] + z * omega[0] - x * omega[2];
