@@ -10,7 +10,7 @@
 namespace twincraft {
 namespace {
 
-constexpr std::string_view kRow = "{:<21}{:<15}{:<12}{:<17}{}";
+constexpr std::string_view kRow = "{:<20} {:<14} {:<11} {:<16} {}";
 
 std::string row(std::string_view label, std::string_view a, std::string_view b, std::string_view c,
                 std::string_view d = "") {
