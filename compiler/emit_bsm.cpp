@@ -40,21 +40,27 @@ Json schedules_json(const std::array<Schedule, 3>& schedules) {
 /// Units differ between a hinge and a slide, so the keys do too.
 Json joint_json(const Joint& joint) {
   const bool hinge = joint.kind == JointKind::kHinge;
-  return {{"kind", hinge ? "hinge" : "slide"},
-          {"r_HP_P_m", vector_json(joint.r_HP_P)},
-          {"dcm_PL0", matrix_json(joint.dcm_PL0)},
-          {"axis_L", vector_json(joint.axis_L)},
-          {hinge ? "stiffness_N_m_rad" : "stiffness_N_m", joint.stiffness},
-          {hinge ? "damping_N_m_s_rad" : "damping_N_s_m", joint.damping},
-          {hinge ? "rest_rad" : "rest_m", joint.rest},
-          {hinge ? "torque_N_m" : "force_N", schedule_json(joint.effort)}};
+  Json json = {{"kind", hinge ? "hinge" : "slide"},
+               {"r_HP_P_m", vector_json(joint.r_HP_P)},
+               {"dcm_PL0", matrix_json(joint.dcm_PL0)},
+               {"axis_L", vector_json(joint.axis_L)},
+               {hinge ? "stiffness_N_m_rad" : "stiffness_N_m", joint.stiffness},
+               {hinge ? "damping_N_m_s_rad" : "damping_N_s_m", joint.damping},
+               {hinge ? "rest_rad" : "rest_m", joint.rest},
+               {hinge ? "torque_N_m" : "force_N", schedule_json(joint.effort)}};
+  if (joint.damped_by_cosine_of >= 0) {
+    json["damping_times_squared_cosine_of_link"] = joint.damped_by_cosine_of;
+  }
+  return json;
 }
 
 Json element_json(const MassElement& element) {
-  return {{"name", element.name},
-          {"mass_kg", element.mass},
-          {"r_EL_L_m", vector_json(element.r_EL_L)},
-          {"I_PntE_L_kg_m2", matrix_json(element.I_PntE_L)}};
+  Json json = {{"name", element.name},
+               {"mass_kg", element.mass},
+               {"r_EL_L_m", vector_json(element.r_EL_L)},
+               {"I_PntE_L_kg_m2", matrix_json(element.I_PntE_L)}};
+  if (element.tank >= 0) json["tank"] = element.tank;
+  return json;
 }
 
 Json link_json(const Link& link) {
@@ -108,6 +114,12 @@ Json load_json(const Load& load) {
           {"r_FL_L_m", load.r_FL_L ? vector_json(*load.r_FL_L) : Json(nullptr)}};
 }
 
+Json tank_json(const Tank& tank) {
+  return {{"name", tank.name},
+          {"content_kg", tank.content},
+          {"mass_flow_kg_s", schedule_json(tank.mass_flow)}};
+}
+
 const char* law_word(GravityLaw law) {
   switch (law) {
     case GravityLaw::kNone:
@@ -145,10 +157,12 @@ Json list_json(const Items& items, Print print) {
 std::string emit_bsm(const Model& model) {
   Json json = {{"format", "twincraft-assembly/1"}, {"name", model.name}};
   if (!model.description.empty()) json["description"] = model.description;
+  if (model.simulation.translation) json["motion"] = "translation";
   json["links"] = list_json(model.assembly.links, link_json);
   json["rotors"] = list_json(model.assembly.rotors, rotor_json);
   json["coordinates"] = list_json(model.coordinates, coordinate_json);
   json["loads"] = list_json(model.loads, load_json);
+  if (!model.tanks.empty()) json["tanks"] = list_json(model.tanks, tank_json);
   json["gravity"] = {{"mu_m3_s2", model.gravity.mu}, {"law", law_word(model.gravity.bsm)}};
   json["initial"] = initial_json(model.initial);
   return json_text(json);

@@ -76,6 +76,7 @@ class MjcfPrinter {
 
   void settings();
   void body(std::size_t index);
+  void hub_joints(const std::string& hub);
   void joint(const TreeJoint& joint);
   void inertial(const MassProperties& properties);
   void picture(const TreeBody& body);
@@ -148,7 +149,7 @@ void MjcfPrinter::body(std::size_t index) {
   const TreeBody& body = model_.tree.bodies[index];
   if (index == 0) {
     open("body", {{"name", body.name}});
-    leaf("freejoint", {{"name", body.name}});
+    hub_joints(body.name);
   } else {
     open("body", {{"name", body.name}, {"pos", text(body.pos)}, {"quat", text(body.quat)}});
   }
@@ -158,6 +159,14 @@ void MjcfPrinter::body(std::size_t index) {
   sites(body);
   for (const std::size_t child : children_[index]) this->body(child);
   close();
+}
+
+// A point mass slides along the world's axes. No component is called `hub`, so none `hub.x`.
+void MjcfPrinter::hub_joints(const std::string& hub) {
+  if (!model_.simulation.translation) return leaf("freejoint", {{"name", hub}});
+  leaf("joint", {{"name", hub + ".x"}, {"type", "slide"}, {"axis", "1 0 0"}});
+  leaf("joint", {{"name", hub + ".y"}, {"type", "slide"}, {"axis", "0 1 0"}});
+  leaf("joint", {{"name", hub + ".z"}, {"type", "slide"}, {"axis", "0 0 1"}});
 }
 
 void MjcfPrinter::joint(const TreeJoint& joint) {
@@ -238,10 +247,14 @@ void MjcfPrinter::initial_state() {
   leaf("numeric", {{"name", "hub_position"}, {"data", text(initial.r_BN_N)}});
   leaf("numeric", {{"name", "hub_velocity"}, {"data", text(initial.v_BN_N)}});
   close();
-  const Quaterniond& q = initial.q_BN;
-  const Vector3d& omega = initial.omega_BN_B;
-  qpos_.insert(qpos_.begin(), {0.0, 0.0, 0.0, q.w(), q.x(), q.y(), q.z()});
-  qvel_.insert(qvel_.begin(), {0.0, 0.0, 0.0, omega.x(), omega.y(), omega.z()});
+  if (!model_.simulation.translation) {
+    const Quaterniond& q = initial.q_BN;
+    const Vector3d& omega = initial.omega_BN_B;
+    qpos_.insert(qpos_.begin(), {q.w(), q.x(), q.y(), q.z()});
+    qvel_.insert(qvel_.begin(), {omega.x(), omega.y(), omega.z()});
+  }
+  qpos_.insert(qpos_.begin(), 3, 0.0);
+  qvel_.insert(qvel_.begin(), 3, 0.0);
   std::vector<Attribute> key = {{"name", "initial"}, {"qpos", text(qpos_)}, {"qvel", text(qvel_)}};
   if (!ctrl_.empty()) key.push_back({"ctrl", text(ctrl_)});
   open("keyframe");

@@ -1,10 +1,12 @@
-// Both halves of the model, entry by entry; see the header for what happens to wheels.
+// Both halves of the model, entry by entry; see the header for what happens to wheels and fixed
+// bodies.
 // Tested by tests/compiler/model_builder_test.cpp.
 #include "compiler/model_builder.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <stdexcept>
 #include <utility>
 
@@ -27,12 +29,33 @@ void put(std::vector<double>& values, int index, double value) {
   values[position] = value;
 }
 
-int tree_depth(const BodyTree& tree) {
-  std::vector<int> depth;
-  for (const TreeBody& body : tree.bodies) {
-    depth.push_back(body.parent < 0 ? 0 : at(depth, body.parent) + 1);
+TreeJoint tree_joint(const std::string& name, const Joint& joint) {
+  return {name, joint.kind, joint.axis_L, joint.stiffness, joint.damping, joint.rest};
+}
+
+/// Given in a mount's axes, taken in those of the link that carries it.
+Vector3d point_on_link(const Mount& mount, const Vector3d& r_PM_M) {
+  return mount.r_ML_L + mount.dcm_LM * r_PM_M;
+}
+
+MassElement on_link(const Mount& mount, const MassElement& element) {
+  return seated(element, {.link = mount.link, .dcm_LS = mount.dcm_LM, .r_SL_L = mount.r_ML_L});
+}
+
+std::array<Schedule, 3> on_link(const Mount& mount, const std::array<Schedule, 3>& vector) {
+  std::array<Schedule, 3> turned;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      const double share = mount.dcm_LM(static_cast<int>(i), static_cast<int>(j));
+      if (share != 0.0) turned[i] = turned[i] + vector[j].scaled(share);
+    }
   }
-  return *std::max_element(depth.begin(), depth.end());
+  return turned;
+}
+
+/// @pre there is one of that name
+MassElement& named(std::vector<MassElement>& elements, const std::string& name) {
+  return *std::ranges::find(elements, name, &MassElement::name);
 }
 
 }  // namespace
@@ -51,8 +74,11 @@ void ModelBuilder::add_hub() {
 }
 
 Mount ModelBuilder::add_link(const Mount& parent, const std::string& name, const Joint& joint) {
-  const Mount mount{size_of(model_.assembly.links), size_of(model_.tree.bodies)};
-  model_.assembly.links.push_back({name, parent.link, joint, {}});
+  const Mount mount{.link = size_of(model_.assembly.links), .body = size_of(model_.tree.bodies)};
+  Joint joint_on_link = joint;
+  joint_on_link.r_HP_P = point_on_link(parent, joint.r_HP_P);
+  joint_on_link.dcm_PL0 = parent.dcm_LM * joint.dcm_PL0;
+  model_.assembly.links.push_back({name, parent.link, std::move(joint_on_link), {}});
 
   TreeBody body;
   body.name = name;
@@ -60,8 +86,7 @@ Mount ModelBuilder::add_link(const Mount& parent, const std::string& name, const
   body.link = mount.link;
   body.pos = joint.r_HP_P;
   body.quat = Quaterniond(joint.dcm_PL0);
-  body.joints.push_back(
-      {name, joint.kind, joint.axis_L, joint.stiffness, joint.damping, joint.rest});
+  body.joints.push_back(tree_joint(name, joint));
   model_.tree.bodies.push_back(std::move(body));
 
   put(model_.initial.joint_position, mount.link - 1, 0.0);
@@ -70,22 +95,70 @@ Mount ModelBuilder::add_link(const Mount& parent, const std::string& name, const
   return mount;
 }
 
+ModelBuilder::Pendulum ModelBuilder::add_pendulum(const Mount& parent, const std::string& name,
+                                                  const Joint& phi, const Joint& theta) {
+  const Mount swing = add_link(parent, name + ".phi", phi);
+  const Mount bob{.link = swing.link + 1, .body = swing.body};
+  model_.assembly.links.push_back({name + ".theta", swing.link, theta, {}});
+  at(model_.assembly.links, swing.link).joint.damped_by_cosine_of = bob.link;
+  TreeBody& body = at(model_.tree.bodies, bob.body);
+  body.name = name;
+  body.link = bob.link;
+  body.joints.push_back(tree_joint(name + ".theta", theta));
+  put(model_.initial.joint_position, bob.link - 1, 0.0);
+  put(model_.initial.joint_rate, bob.link - 1, 0.0);
+  return {swing.link, bob};
+}
+
+Mount ModelBuilder::add_fixed_body(const Mount& parent, const std::string& name,
+                                   const Vector3d& r_MP_P, const Matrix3d& dcm_PM) {
+  TreeBody body;
+  body.name = name;
+  body.parent = parent.body;
+  body.link = parent.link;
+  body.pos = r_MP_P;
+  body.quat = Quaterniond(dcm_PM);
+  const Mount mount{.link = parent.link,
+                    .body = size_of(model_.tree.bodies),
+                    .dcm_LM = parent.dcm_LM * dcm_PM,
+                    .r_ML_L = point_on_link(parent, r_MP_P)};
+  model_.tree.bodies.push_back(std::move(body));
+  mounts_[name] = mount;
+  return mount;
+}
+
 Mount ModelBuilder::find_mount(const std::string& name) const { return mounts_.at(name); }
 
 void ModelBuilder::add_mass(const Mount& mount, const MassElement& element) {
-  auto& on_link = at(model_.assembly.links, mount.link).elements;
-  if (on_link.empty() && !(element.mass > 0.0)) {
-    throw std::logic_error("the first mass element of link `" +
-                           at(model_.assembly.links, mount.link).name + "` has no mass");
+  TreeBody& body = at(model_.tree.bodies, mount.body);
+  if (body.elements.empty() && !(element.mass > 0.0)) {
+    throw std::logic_error("the first mass element of `" + body.name + "` has no mass");
   }
-  on_link.push_back(element);
-  at(model_.tree.bodies, mount.body).elements.push_back(element);
+  at(model_.assembly.links, mount.link).elements.push_back(on_link(mount, element));
+  body.elements.push_back(element);
+  body.tank = element.tank;
+}
+
+void ModelBuilder::add_token_inertia(const Mount& mount, double inertia) {
+  at(model_.tree.bodies, mount.body).token_inertia += inertia;
+}
+
+int ModelBuilder::add_tank(Tank tank) {
+  model_.tanks.push_back(std::move(tank));
+  return size_of(model_.tanks) - 1;
+}
+
+int ModelBuilder::find_tank(const std::string& name) const {
+  const auto tank = std::find_if(model_.tanks.begin(), model_.tanks.end(),
+                                 [&](const Tank& each) { return each.name == name; });
+  return static_cast<int>(tank - model_.tanks.begin());
 }
 
 int ModelBuilder::add_wheel(const Mount& mount, const Rotor& rotor, const MassElement& element) {
   const int index = size_of(model_.assembly.rotors);
   model_.assembly.rotors.push_back(rotor);
   model_.assembly.rotors.back().link = mount.link;
+  model_.assembly.rotors.back().axis_L = mount.dcm_LM * rotor.axis_L;
   put(model_.initial.rotor_speed, index, 0.0);
 
   const bool massless = element.mass == 0.0;
@@ -107,12 +180,11 @@ int ModelBuilder::add_wheel(const Mount& mount, const Rotor& rotor, const MassEl
     wheel.I_PntE_L.setZero();  // gravity finds the tensor on the mount
     if (!model_.engines.compensate) body.elements.push_back(wheel);
   } else {
-    at(model_.assembly.links, mount.link).elements.push_back(element);
+    at(model_.assembly.links, mount.link).elements.push_back(on_link(mount, element));
     body.elements.push_back(wheel);
   }
   model_.tree.bodies.push_back(std::move(body));
   model_.tree.wheels.push_back({rotor.name, index});
-  return index;
   return index;
 }
 
@@ -127,7 +199,13 @@ void ModelBuilder::add_coordinate(Coordinate::Kind kind, const std::string& name
   }
 }
 
-void ModelBuilder::add_load(Load load) { model_.loads.push_back(std::move(load)); }
+void ModelBuilder::add_load(const Mount& mount, Load load) {
+  load.link = mount.link;
+  load.force_L = on_link(mount, load.force_L);
+  load.torque_L = on_link(mount, load.torque_L);
+  if (load.r_FL_L) load.r_FL_L = point_on_link(mount, *load.r_FL_L);
+  model_.loads.push_back(std::move(load));
+}
 
 Model ModelBuilder::build() && {
   form_inertials();
@@ -140,6 +218,7 @@ void ModelBuilder::form_inertials() {
   for (TreeBody& body : model_.tree.bodies) {
     if (body.link < 0) continue;  // a wheel, which brought its own
     MassProperties sum;
+    sum.I_PntC_L = body.token_inertia * Matrix3d::Identity();
     for (const MassElement& element : body.elements) sum = sum + properties_of(element);
     body.inertial = sum;
   }
@@ -155,14 +234,15 @@ void ModelBuilder::form_inertials() {
 
 void ModelBuilder::carry_massless_wheels() {
   for (const MasslessWheel& wheel : massless_) {
-    const Matrix3d& tensor = wheel.element.I_PntE_L;
-    at(model_.assembly.links, wheel.mount.link).elements.at(0).I_PntE_L += tensor;
-    at(model_.tree.bodies, wheel.mount.body).elements.at(0).I_PntE_L += tensor;
+    MassElement& on_body = at(model_.tree.bodies, wheel.mount.body).elements.at(0);
+    on_body.I_PntE_L += wheel.element.I_PntE_L;
+    Link& link = at(model_.assembly.links, wheel.mount.link);
+    named(link.elements, on_body.name).I_PntE_L += on_link(wheel.mount, wheel.element).I_PntE_L;
   }
 }
 
 void ModelBuilder::refuse_deep_chains() {
-  const int depth = tree_depth(model_.tree);
+  const int depth = std::ranges::max(depths_of(model_.tree));
   if (depth <= kMaximumTreeDepth) return;
   model_.mujoco_refusal = fmt::format(
       "a chain of {} bodies below the hub is deeper than the {} that MuJoCo's XML reader allows",

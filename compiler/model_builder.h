@@ -6,6 +6,9 @@
 // mass, and takes the token back out of the mount (`compensate`), so that mount and wheel together
 // are the massless-wheel vehicle exactly. For gravity the wheel's tensor adds to the first element
 // of its mount in both halves: mount and massless wheel are one rigid body.
+//
+// Fixed bodies are the other difference. The analytic half knows none: what is put on one is put on
+// the link that carries it, in that link's axes. The tree welds a body of its own.
 // Tested by tests/compiler/model_builder_test.cpp.
 #pragma once
 
@@ -17,10 +20,13 @@
 
 namespace twincraft {
 
-/// A link and the tree body that stands for it.
+/// A place for components: a body of the tree and the link that carries it in the assembly. What is
+/// added there is given in the body's axes, which are the link's unless the body is fixed on it.
 struct Mount {
   int link = 0;
   int body = 0;
+  Matrix3d dcm_LM = Matrix3d::Identity();  // body to link components
+  Vector3d r_ML_L = Vector3d::Zero();      // [m] the body's origin from the link's
 };
 
 /// Bodies nested below the hub that MuJoCo's XML reader still loads: tinyxml2 stops at an element
@@ -37,11 +43,36 @@ class ModelBuilder {
   /// A link on a joint, in both halves. The joint's name is the link's.
   Mount add_link(const Mount& parent, const std::string& name, const Joint& joint);
 
-  /// Where a named component can be mounted on. @pre a link of that name was added
+  /// A spherical pendulum: two hinges that share an origin. The first link has no mass, and its
+  /// damping is that of linear drag on the bob; the second carries the bob. The tree has one body
+  /// `name` with both joints, whose dampings are those of small angles.
+  struct Pendulum {
+    int phi_link = 0;
+    Mount bob;
+  };
+  Pendulum add_pendulum(const Mount& parent, const std::string& name, const Joint& phi,
+                        const Joint& theta);
+
+  /// A body without a coordinate, in both halves. Its origin is at `r_MP_P` [m] in its parent's
+  /// axes; `dcm_PM` takes its components to its parent's.
+  Mount add_fixed_body(const Mount& parent, const std::string& name, const Vector3d& r_MP_P,
+                       const Matrix3d& dcm_PM);
+
+  /// Where a named component can be mounted on. @pre a link or fixed body of that name was added
   Mount find_mount(const std::string& name) const;
 
-  /// Put mass on a link, in both halves. @pre the link's first element has a positive mass
+  /// Put mass on a mount, in both halves. @pre the mount's first element has a positive mass
   void add_mass(const Mount& mount, const MassElement& element);
+
+  /// Give the tree body of a mount an inertia [kg m^2] that the analytic half does not have.
+  void add_token_inertia(const Mount& mount, double inertia);
+
+  /// @return its index, for MassElement::tank
+  int add_tank(Tank tank);
+  /// @pre a tank of that name was added
+  int find_tank(const std::string& name) const;
+
+  const EngineControls& controls() const { return model_.engines; }
 
   /// A balanced wheel: gyrostat of its mount here, a body with a hinge there. `element` is the
   /// wheel's mass (zero: massless), place and tensor in mount axes; `rotor.link` is set here.
@@ -53,7 +84,8 @@ class ModelBuilder {
   /// @param rate      initial [rad/s] or [m/s]
   void add_coordinate(Coordinate::Kind kind, const std::string& name, int index, double position,
                       double rate);
-  void add_load(Load load);
+  /// `load` is in the mount's axes, about its origin; `load.link` is set here.
+  void add_load(const Mount& mount, Load load);
 
   /// Everything collected, with the tree's inertials formed from the ledger.
   Model build() &&;

@@ -5,7 +5,10 @@
 #include <fmt/ranges.h>
 #include <openssl/evp.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <mutex>
 #include <utility>
 
 #include "compiler/components/spec.h"
@@ -13,7 +16,9 @@
 #include "compiler/emit_json.h"
 #include "compiler/emit_mjcf.h"
 #include "compiler/emit_resolved.h"
+#include "compiler/schema/partial.h"
 #include "compiler/schema/reference.h"
+#include "compiler/syntax/extends.h"
 #include "compiler/syntax/load.h"
 #include "compiler/syntax/overrides.h"
 #include "compiler/verify.h"
@@ -21,14 +26,27 @@
 namespace twincraft {
 namespace {
 
-/// Text to syntax tree, with the command line's changes in it.
-std::optional<Node> load(const Source& source, const std::vector<std::string>& overrides,
-                         Sources& sources, Diagnostics& diagnostics) {
+/// A spec as bundles name it.
+struct Origin {
+  std::string file;
+  std::string sha256;  // of all files it is made of
+};
+
+/// Text to syntax tree, with what it extends and with the command line's changes in it.
+/// @param origin, changes  receive what the tree is made of
+std::optional<Node> load(const Source& source, const CompileRequest& request, Sources& sources,
+                         Origin& origin, std::vector<Override>& changes, Diagnostics& diagnostics) {
   std::optional<Node> root = parse(source, diagnostics);
   if (!root || diagnostics.has_errors()) return std::nullopt;
-  for (const std::string& text : overrides) {
-    const std::optional<Override> change = parse_override(text, sources, diagnostics);
-    if (change) apply(*change, *root, diagnostics);
+  const std::optional<std::string> text_of_all =
+      resolve_extends(*root, source, request.file, sources, diagnostics);
+  if (!text_of_all || diagnostics.has_errors()) return std::nullopt;
+  origin = {source.name(), sha256(*text_of_all)};
+  for (const std::string& text : request.overrides) {
+    std::optional<Override> change = parse_override(text, sources, diagnostics);
+    if (!change) continue;
+    apply(*change, *root, diagnostics);
+    changes.push_back(std::move(*change));
   }
   if (diagnostics.has_errors()) return std::nullopt;
   return root;
@@ -36,6 +54,7 @@ std::optional<Node> load(const Source& source, const std::vector<std::string>& o
 
 /// Syntax tree to a spec in which every default is filled in and every reference holds.
 std::optional<Spec> read(const Node& root, Diagnostics& diagnostics) {
+  if (!refuse_late_extends(root, diagnostics)) return std::nullopt;
   if (!check_format(root, diagnostics)) return std::nullopt;
   Spec spec = spec_table().read(root, diagnostics);
   if (diagnostics.has_errors()) return std::nullopt;
@@ -61,43 +80,209 @@ void require_one_machine(const Model& model) {
                                   fmt::join(failures, "; ")));
 }
 
-Bundle emit(Model model, const Spec& spec, const Source& source) {
+/// The value at a path of the resolved spec, the first one where the path means several.
+const Json* find_value(const Json& resolved, const std::vector<std::string>& path) {
+  const Json* value = &resolved;
+  for (const std::string& step : path) {
+    const auto fits = [&step](const Json& member) {
+      return step == "*" || (member.is_object() && member.value("name", "") == step);
+    };
+    if (value->is_array()) {
+      const auto member = std::find_if(value->begin(), value->end(), fits);
+      if (member == value->end()) return nullptr;
+      value = &*member;
+    } else {
+      if (!value->is_object() || !value->contains(step)) return nullptr;
+      value = &(*value)[step];
+    }
+  }
+  return value;
+}
+
+std::optional<double> number_of(const Json* value) {
+  if (value == nullptr) return std::nullopt;
+  if (value->is_number()) return value->get<double>();
+  if (!value->is_array() || value->empty()) return std::nullopt;
+  double sum = 0.0;
+  for (const Json& component : *value) {
+    if (!component.is_number()) return std::nullopt;
+    sum += component.get<double>() * component.get<double>();
+  }
+  return std::sqrt(sum);
+}
+
+std::vector<Setting> settings_of(const std::vector<Override>& changes, const Json& resolved) {
+  std::vector<Setting> settings;
+  for (const Override& change : changes) {
+    settings.push_back(setting_of(change));
+    settings.back().value = number_of(find_value(resolved, change.path));
+  }
+  return settings;
+}
+
+Bundle emit(Model model, const Spec& spec, const Origin& origin,
+            const std::vector<Override>& changes) {
   const Json resolved = spec_table().write(spec);
   Bundle bundle;
   if (model.mujoco_refusal.empty()) bundle.mjcf = emit_mjcf(model);
   bundle.assembly_json = emit_bsm(model);
   bundle.resolved_yaml = emit_resolved(resolved);
   bundle.resolved_json = json_text(resolved);
-  bundle.spec_file = source.name();
-  bundle.spec_sha256 = sha256(source.text());
+  bundle.spec_file = origin.file;
+  bundle.spec_sha256 = origin.sha256;
+  bundle.settings = settings_of(changes, resolved);
   bundle.model = std::move(model);
   return bundle;
+}
+
+/// A spec and the model it became.
+struct Compiled {
+  Spec spec;  // points into the syntax tree
+  Model model;
+};
+
+/// Syntax tree to model, short of the proof and the printing.
+std::optional<Compiled> compile_tree(const Node& root, Diagnostics& diagnostics) {
+  std::optional<Spec> spec = read(root, diagnostics);
+  if (!spec) return std::nullopt;
+  std::optional<Model> model = lower(*spec, diagnostics);
+  if (!model || diagnostics.has_errors()) return std::nullopt;
+  if (!check_finite(*model, root.span, diagnostics)) return std::nullopt;
+  return Compiled{std::move(*spec), std::move(*model)};
+}
+
+void remove_key(Node& map, std::string_view key) {
+  const auto found = std::find_if(map.keys.begin(), map.keys.end(),
+                                  [key](const Node::Key& one) { return one.name == key; });
+  if (found == map.keys.end()) return;
+  map.items.erase(map.items.begin() + (found - map.keys.begin()));
+  map.keys.erase(found);
+}
+
+class StudyOfSpec : public Study {
+ public:
+  StudyOfSpec(Node root, StudyMembers members, std::vector<Override> command_line, Origin origin)
+      : base_(std::move(root)),
+        members_(std::move(members)),
+        command_line_(std::move(command_line)),
+        origin_(std::move(origin)) {
+    remove_key(base_, "study");
+    // The tolerances of a spec are for its own step, not for all those that are tried out.
+    if (members_.plan.is_work_precision) remove_key(base_, "agreement");
+  }
+
+  const StudyPlan& plan() const override { return members_.plan; }
+  std::vector<Override> changes(std::size_t index) const { return members_.overrides(index); }
+
+  std::optional<Bundle> compile(std::size_t index, Diagnostics& diagnostics) const override {
+    const std::lock_guard lock(one_at_a_time_);  // UDUNITS is no library for threads
+    std::vector<Override> changes = members_.overrides(index);
+    const std::optional<Node> root = tree_of(changes, diagnostics);
+    std::optional<Compiled> compiled =
+        root ? compile_tree(*root, diagnostics) : std::optional<Compiled>();
+    if (!compiled) return std::nullopt;
+    require_one_machine(compiled->model);
+    changes.insert(changes.begin(), command_line_.begin(), command_line_.end());
+    return emit(std::move(compiled->model), compiled->spec, origin_, changes);
+  }
+
+  /// Whatever is wrong with one member, short of the proof and the printing.
+  void check(std::size_t index, Diagnostics& diagnostics) const {
+    const std::optional<Node> root = tree_of(members_.overrides(index), diagnostics);
+    if (root) compile_tree(*root, diagnostics);
+  }
+
+ private:
+  std::optional<Node> tree_of(const std::vector<Override>& changes,
+                              Diagnostics& diagnostics) const {
+    std::optional<Node> root = base_;
+    for (const Override& change : changes) apply(change, *root, diagnostics);
+    if (diagnostics.has_errors()) root.reset();
+    return root;
+  }
+
+  Node base_;
+  StudyMembers members_;
+  std::vector<Override> command_line_;
+  Origin origin_;
+  mutable std::mutex one_at_a_time_;
+};
+
+constexpr std::size_t kEnoughFaults = 50;
+
+bool is_known(const Diagnostic& fault, const Diagnostics& diagnostics) {
+  const auto same = [&fault](const Diagnostic& other) {
+    return other.code == fault.code && other.span == fault.span && other.message == fault.message;
+  };
+  return std::any_of(diagnostics.all().begin(), diagnostics.all().end(), same);
+}
+
+bool covers(const Span& outer, const Span& inner) {
+  return inner.source == outer.source && inner.line == outer.line && inner.column >= outer.column &&
+         inner.column + inner.length <= outer.column + outer.length;
+}
+
+/// A fault of a member with notes at the values that made the member, unless one is its place.
+Diagnostic in_member(Diagnostic fault, std::size_t index, const std::vector<Override>& changes) {
+  for (const Override& change : changes) {
+    if (covers(change.value.span, fault.span) || covers(change.span, fault.span)) return fault;
+  }
+  for (const Override& change : changes)
+    fault.with_note(change.value.span, fmt::format("set by member {} of the study", index + 1));
+  return fault;
+}
+
+/// What is wrong with the members beyond what is wrong with the spec itself, each fault once.
+void check_members(const StudyOfSpec& study, Span span, Diagnostics& diagnostics) {
+  const std::size_t members = study.plan().members;
+  for (std::size_t i = 0; i < std::min(members, kCheckedMembers); ++i) {
+    Diagnostics of_member;
+    study.check(i, of_member);
+    for (const Diagnostic& fault : of_member.all()) {
+      // What is worth a note in one spec is not in hundreds of members.
+      if (fault.severity == Severity::kNote || is_known(fault, diagnostics)) continue;
+      diagnostics.take(in_member(fault, i, study.changes(i)));
+    }
+    if (diagnostics.error_count() >= kEnoughFaults) return;
+  }
+  if (members > kCheckedMembers)
+    diagnostics.note(Code::kStudyNotChecked, span,
+                     fmt::format("the first {} of the study's {} members were checked",
+                                 kCheckedMembers, members));
 }
 
 }  // namespace
 
 CompileResult compile(const CompileRequest& request, Sources& sources, Diagnostics& diagnostics) {
   FileText file = read_file(request.file);
-  if (!file.error.empty()) return {std::nullopt, file.error};
+  if (!file.error.empty()) return {.io_error = file.error};
   const std::string name = request.file == "-" ? "<stdin>" : request.file;
   const Source& source = sources.add(name, std::move(file.text));
 
-  const std::optional<Node> root = load(source, request.overrides, sources, diagnostics);
+  Origin origin;
+  std::vector<Override> changes;
+  const std::optional<Node> root = load(source, request, sources, origin, changes, diagnostics);
   if (!root) return {};
-  const std::optional<Spec> spec = read(*root, diagnostics);
-  if (!spec) return {};
-  std::optional<Model> model = lower(*spec, diagnostics);
-  if (!model || diagnostics.has_errors()) return {};
-  if (!check_finite(*model, root->span, diagnostics)) return {};
-  require_one_machine(*model);
-  return {emit(std::move(*model), *spec, source), {}};
+  std::optional<Compiled> compiled = compile_tree(*root, diagnostics);
+  if (!compiled) return {};
+  CompileResult result;
+  if (const std::optional<StudySpec>& spec = compiled->spec.study) {
+    auto study = std::make_unique<StudyOfSpec>(*root, members_of(*spec, diagnostics).value(),
+                                               changes, origin);
+    check_members(*study, spec->span(), diagnostics);
+    if (diagnostics.has_errors()) return {};
+    result.study = std::move(study);
+  }
+  require_one_machine(compiled->model);
+  result.bundle = emit(std::move(compiled->model), compiled->spec, origin, changes);
+  return result;
 }
 
 std::string json_schema() {
   Json schema = {{"$schema", "http://json-schema.org/draft-07/schema#"},
                  {"$comment", "generated by `sccompile --schema > schemas/spacecraft.schema.json`"},
                  {"title", "Twincraft spacecraft specification, version 1"}};
-  schema.update(spec_table().schema());
+  schema.update(whole_unless_extending(spec_table().schema()));
   return json_text(schema);
 }
 

@@ -2,6 +2,7 @@
 // Tested by tests/compiler/pipeline_test.cpp, tests/golden and tests/malformed.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -18,9 +19,25 @@ struct CompileRequest {
   std::vector<std::string> overrides;  // `PATH=VALUE`
 };
 
+/// The members of a study, each compiled when it is asked for; none is kept. Lives no longer than
+/// the Sources it was read from.
+class Study {
+ public:
+  virtual ~Study() = default;
+  virtual const StudyPlan& plan() const = 0;
+
+  /// Nothing when the member's spec has errors. Any number of threads may call it at once, each
+  /// with diagnostics of its own. @throws InternalError as compile() does
+  virtual std::optional<Bundle> compile(std::size_t index, Diagnostics& diagnostics) const = 0;
+};
+
+/// So many members of a study are checked by compile(); a larger study gets a note that says so.
+inline constexpr std::size_t kCheckedMembers = 10'000;
+
 struct CompileResult {
-  std::optional<Bundle> bundle;  // nothing when there were errors
-  std::string io_error;          // the file could not be read: exit code 3
+  std::optional<Bundle> bundle = {};        // of the spec itself; nothing when there were errors
+  std::string io_error = {};                // the file could not be read: exit code 3
+  std::unique_ptr<const Study> study = {};  // when the spec has one
 };
 
 /// The compiler contradicts itself: a bug of ours, with a text that asks to report it.

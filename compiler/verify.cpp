@@ -23,7 +23,7 @@ struct Body {
   int parent = -1;
   Vector3d pos = Vector3d::Zero();  // [m] in the parent's axes
   Matrix3d dcm_PB = Matrix3d::Identity();
-  int coordinate = -1;  // entry of the rate vector; -1: the hub, which moves freely
+  int coordinate = -1;  // entry of the rate vector; -1: the hub, or fixed in its parent
   JointKind kind = JointKind::kHinge;
   Vector3d axis = Vector3d::UnitZ();  // body axes
   MassProperties inertial;
@@ -49,6 +49,11 @@ int first_rotor(const Model& model) {
   return 6 + static_cast<int>(model.assembly.links.size()) - 1;
 }
 
+/// Of the vehicle as a body that moves freely, also where the run then holds its attitude.
+int rigid_coordinates(const Model& model) {
+  return first_rotor(model) + static_cast<int>(model.assembly.rotors.size());
+}
+
 MassProperties sum_of(const std::vector<MassElement>& elements) {
   MassProperties sum;
   for (const MassElement& element : elements) sum = sum + properties_of(element);
@@ -65,9 +70,14 @@ bool is_token(const Model& model, const TreeBody& body) {
   return true;
 }
 
+/// The last joint of a body is its link's own; those before it belong to the links before.
+int link_of_joint(const TreeBody& body, std::size_t joint) {
+  return body.link - static_cast<int>(body.joints.size() - 1 - joint);
+}
+
 Machine machine_of_assembly(const Model& model) {
   Machine machine;
-  machine.coordinates = model.degrees_of_freedom();
+  machine.coordinates = rigid_coordinates(model);
   machine.rotors = model.assembly.rotors;
   for (const Link& link : model.assembly.links) {
     Body body;
@@ -82,12 +92,17 @@ Machine machine_of_assembly(const Model& model) {
     }
     machine.bodies.push_back(body);
   }
-  if (model.engines.compensate) return machine;
   for (const TreeBody& body : model.tree.bodies) {
+    if (body.token_inertia == 0.0) continue;
+    at(machine.bodies, body.link).inertial.I_PntC_L += body.token_inertia * Matrix3d::Identity();
+  }
+  if (model.engines.compensate) return machine;
+  const std::vector<Seat> seats = seats_of(model.tree);
+  for (std::size_t i = 0; i < seats.size(); ++i) {
+    const TreeBody& body = model.tree.bodies[i];
     if (!is_token(model, body)) continue;
-    Body& mount = at(machine.bodies, at(model.tree.bodies, body.parent).link);
-    mount.inertial =
-        mount.inertial + MassProperties{body.inertial.mass, body.pos, Matrix3d::Zero()};
+    MassProperties& mount = at(machine.bodies, seats[i].link).inertial;
+    mount = mount + MassProperties{body.inertial.mass, seats[i].r_SL_L, Matrix3d::Zero()};
   }
   return machine;
 }
@@ -97,20 +112,27 @@ Machine machine_of_tree(const Model& model) {
   for (const TreeWheel& wheel : model.tree.wheels) rotor_of_joint[wheel.joint] = wheel.rotor;
 
   Machine machine;
-  machine.coordinates = model.degrees_of_freedom();
+  machine.coordinates = rigid_coordinates(model);
+  std::vector<int> machine_body;  // per tree body; one with several joints is a row of bodies
   for (const TreeBody& tree_body : model.tree.bodies) {
     Body body;
-    body.parent = tree_body.parent;
+    body.parent = tree_body.parent < 0 ? -1 : at(machine_body, tree_body.parent);
     body.pos = tree_body.pos;
     body.dcm_PB = tree_body.quat.toRotationMatrix();
-    body.inertial = tree_body.inertial;
-    if (!tree_body.joints.empty()) {
-      const TreeJoint& joint = tree_body.joints.front();
+    for (std::size_t i = 0; i < tree_body.joints.size(); ++i) {
+      const TreeJoint& joint = tree_body.joints[i];
+      if (i > 0) {
+        machine.bodies.push_back(body);
+        body = Body{};
+        body.parent = static_cast<int>(machine.bodies.size()) - 1;
+      }
       body.kind = joint.kind;
       body.axis = joint.axis;
-      body.coordinate = tree_body.link >= 0 ? 5 + tree_body.link
+      body.coordinate = tree_body.link >= 0 ? 5 + link_of_joint(tree_body, i)
                                             : first_rotor(model) + rotor_of_joint.at(joint.name);
     }
+    body.inertial = tree_body.inertial;
+    machine_body.push_back(static_cast<int>(machine.bodies.size()));
     machine.bodies.push_back(body);
   }
   return machine;
@@ -129,7 +151,7 @@ std::vector<Pose> poses_of(const Machine& machine, const VectorXd& q) {
     if (body.parent >= 0) {
       const Matrix3d dcm_parent = at(poses, body.parent).dcm;
       const Matrix3d dcm_0 = dcm_parent * body.dcm_PB;
-      const double coordinate = q[body.coordinate];
+      const double coordinate = body.coordinate < 0 ? 0.0 : q[body.coordinate];
       pose.axis = dcm_0 * body.axis;
       pose.offset = dcm_parent * body.pos;
       pose.dcm = dcm_0;
@@ -159,8 +181,10 @@ std::vector<Motor> velocities(const Machine& machine, const std::vector<Pose>& p
     if (body.parent >= 0) {
       own = at(motion, body.parent);
       own.linear += own.angular.cross(poses[i].offset);
-      (body.kind == JointKind::kHinge ? own.angular : own.linear) +=
-          poses[i].axis * u[body.coordinate];
+      if (body.coordinate >= 0) {
+        (body.kind == JointKind::kHinge ? own.angular : own.linear) +=
+            poses[i].axis * u[body.coordinate];
+      }
     }
     motion.push_back(own);
   }
@@ -192,8 +216,10 @@ VectorXd generalised_momentum(const Machine& machine, const std::vector<Pose>& p
   }
   for (std::size_t i = poses.size(); i-- > 1;) {
     const Body& body = machine.bodies[i];
-    momentum[body.coordinate] =
-        poses[i].axis.dot(body.kind == JointKind::kHinge ? carried[i].angular : carried[i].linear);
+    if (body.coordinate >= 0) {
+      momentum[body.coordinate] = poses[i].axis.dot(
+          body.kind == JointKind::kHinge ? carried[i].angular : carried[i].linear);
+    }
     Motor& parent = at(carried, body.parent);
     parent.linear += carried[i].linear;
     parent.angular += carried[i].angular + poses[i].offset.cross(carried[i].linear);
@@ -241,7 +267,7 @@ double tolerance(const Model& model) {
 
 void compare_mass_matrices(const Model& model, const VectorXd& q, const std::string& where,
                            std::vector<std::string>& failures) {
-  const std::vector<int> compared = compared_coordinates(model.degrees_of_freedom());
+  const std::vector<int> compared = compared_coordinates(rigid_coordinates(model));
   const MatrixXd a = mass_matrix(machine_of_assembly(model), q, compared);
   const MatrixXd b = mass_matrix(machine_of_tree(model), q, compared);
   double worst = 0.0;
@@ -263,7 +289,7 @@ void compare_mass_matrices(const Model& model, const VectorXd& q, const std::str
 }
 
 VectorXd initial_configuration(const Model& model) {
-  VectorXd q = VectorXd::Zero(model.degrees_of_freedom());
+  VectorXd q = VectorXd::Zero(rigid_coordinates(model));
   for (std::size_t i = 0; i < model.initial.joint_position.size(); ++i) {
     q[static_cast<Eigen::Index>(6 + i)] = model.initial.joint_position[i];
   }
@@ -291,12 +317,14 @@ void compare_names(const Model& model, std::vector<std::string>& failures) {
   for (const TreeBody& body : model.tree.bodies) {
     joints += body.joints.size();
     if (body.link <= 0) continue;
-    const Link& link = at(model.assembly.links, body.link);
-    const bool matches = body.joints.size() == 1 && body.joints.front().name == link.name &&
-                         same_spring(link.joint, body.joints.front());
-    if (!matches) failures.push_back(fmt::format("the joint of `{}` differs", link.name));
+    for (std::size_t i = 0; i < body.joints.size(); ++i) {
+      const Link& link = at(model.assembly.links, link_of_joint(body, i));
+      const bool matches =
+          body.joints[i].name == link.name && same_spring(link.joint, body.joints[i]);
+      if (!matches) failures.push_back(fmt::format("the joint of `{}` differs", link.name));
+    }
   }
-  const std::size_t coordinates = static_cast<std::size_t>(model.degrees_of_freedom()) - 6;
+  const std::size_t coordinates = static_cast<std::size_t>(rigid_coordinates(model)) - 6;
   if (joints != coordinates || model.coordinates.size() != coordinates) {
     failures.push_back(
         fmt::format("{} coordinates are named, the assembly has {} and the tree has {} joints",
@@ -320,17 +348,18 @@ bool same_properties(const MassProperties& a, const MassProperties& b) {
 /// Gravity must pull on the same elements in both halves.
 void compare_elements(const Model& model, std::vector<std::string>& failures) {
   std::vector<std::vector<MassElement>> in_tree(model.assembly.links.size());
-  for (const TreeBody& body : model.tree.bodies) {
+  const std::vector<Seat> seats = seats_of(model.tree);
+  for (std::size_t i = 0; i < seats.size(); ++i) {
+    const TreeBody& body = model.tree.bodies[i];
     if (is_token(model, body)) continue;
-    const bool wheel = body.link < 0;
-    const int link = wheel ? at(model.tree.bodies, body.parent).link : body.link;
-    for (MassElement element : body.elements) {
-      if (wheel) element.r_EL_L += body.pos;
-      at(in_tree, link).push_back(element);
+    const Seat& seat = seats[i];
+    for (const MassElement& element : body.elements) {
+      at(in_tree, seat.link).push_back(seated(element, seat));
     }
   }
   for (std::size_t i = 0; i < in_tree.size(); ++i) {
     const Link& link = model.assembly.links[i];
+    if (in_tree[i].empty() && link.elements.empty()) continue;  // a pendulum's first link
     const bool same = in_tree[i].size() == link.elements.size() &&
                       same_properties(sum_of(link.elements), sum_of(in_tree[i]));
     if (!same) failures.push_back(fmt::format("gravity pulls on other masses at `{}`", link.name));
@@ -344,7 +373,7 @@ bool is_finite(const Model& model) {
   return initial.r_BN_N.allFinite() && initial.v_BN_N.allFinite() &&
          initial.q_BN.coeffs().allFinite() && initial.omega_BN_B.allFinite() &&
          mass_matrix(machine_of_assembly(model), initial_configuration(model),
-                     compared_coordinates(model.degrees_of_freedom()))
+                     compared_coordinates(rigid_coordinates(model)))
              .allFinite();
 }
 

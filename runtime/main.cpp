@@ -3,18 +3,22 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <exception>
 #include <filesystem>
+#include <thread>
 
 #include "compiler/cli.h"
 #include "compiler/diag/print.h"
 #include "compiler/output.h"
 #include "compiler/pipeline.h"
 #include "runtime/interrupt.h"
+#include "runtime/members.h"
 #include "runtime/report/csv.h"
 #include "runtime/report/json.h"
 #include "runtime/report/progress.h"
+#include "runtime/report/study_table.h"
 #include "runtime/report/table.h"
 
 namespace twincraft {
@@ -27,6 +31,7 @@ struct Options {
   std::string engine = "both";
   int trials = RunOptions{}.trials;
   bool no_timing = false;
+  int jobs = 0;  // 0: as many as there are cores
   bool quiet = false;
   std::string progress = "auto";
   std::string diagnostics = "text";
@@ -58,6 +63,10 @@ void describe_output(CLI::App& app, Options& options) {
       ->type_name("N")
       ->check(CLI::Range(0, 1'000'000).description(""));
   app.add_flag("--no-timing", options.no_timing, "same as --trials 0");
+  app.add_option("--jobs", options.jobs,
+                 "members of a study at a time (default: all cores); timed ones run alone")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1024).description(""));
   app.add_flag("--quiet", options.quiet, "print no report and no progress");
   app.add_option("--progress", options.progress, "auto (default), always or never")
       ->type_name("WHEN")
@@ -77,19 +86,6 @@ void describe(CLI::App& app, Options& options) {
       "Exit: 0 done, 1 faults in the spec or a tolerance exceeded, 2 usage, 3 input/output,\n"
       "4 numerical failure, 130/143 interrupted (what was computed is written).\n\n"
       "Example: scsim models/quickstart.yaml -o out --step '10 ms' --engine both");
-}
-
-using Settings = std::vector<std::pair<std::string, std::string>>;
-
-/// Every change to the spec the command line asks for, as path and value.
-Settings settings_of(const Options& options) {
-  Settings settings;
-  for (const std::string& text : options.request.overrides) {
-    const std::size_t equals = text.find('=');
-    if (equals != std::string::npos)
-      settings.emplace_back(text.substr(0, equals), text.substr(equals + 1));
-  }
-  return settings;
 }
 
 void translate_conveniences(Options& options) {
@@ -133,16 +129,27 @@ RunOptions run_options(const Options& options, ProgressBar& bar) {
   return run;
 }
 
-int write_results(const Report& report, const std::string& folder) {
-  if (folder.empty()) return kExitDone;
-  const std::filesystem::path path(folder);
-  std::vector<OutputFile> files{{(path / "report.json").string(), report_json(report)}};
-  const ReportedMember& first = report.members.front();
-  for (const EngineRun& run : first.result.engines)
+/// DIR, or DIR/0001 and so on: the first member's files lie beside the report.
+std::filesystem::path folder_of(std::size_t index, const Options& options) {
+  const std::filesystem::path folder(options.folder);
+  return index == 0 ? folder : folder / fmt::format("{:04}", index);
+}
+
+/// @return empty, or what went wrong
+std::string write_trajectories(std::size_t index, const ReportedMember& member,
+                               const Options& options) {
+  std::vector<OutputFile> files;
+  for (const EngineRun& run : member.result.engines)
     if (!run.trajectory.samples.empty())
-      files.push_back({(path / (run.name + ".csv")).string(),
-                       trajectory_csv(first.bundle.model, run.trajectory)});
-  const std::string error = write_files(files);
+      files.push_back({(folder_of(index, options) / (run.name + ".csv")).string(),
+                       trajectory_csv(member.bundle.model, run.trajectory)});
+  return files.empty() ? std::string() : write_files(files);
+}
+
+int write_report(const Report& report, const Options& options) {
+  if (options.folder.empty()) return kExitDone;
+  const std::string path = (folder_of(0, options) / "report.json").string();
+  const std::string error = write_files({{path, report_json(report)}});
   if (error.empty()) return kExitDone;
   complain(error);
   return kExitInputOutput;
@@ -150,40 +157,93 @@ int write_results(const Report& report, const std::string& folder) {
 
 /// Files first: a reader of the report who leaves early must not cost the results.
 int deliver(const Report& report, const Options& options) {
-  const int written = write_results(report, options.folder);
+  const int written = write_report(report, options);
   // With JSON diagnostics standard output holds that one document.
   if (options.quiet || options.diagnostics == "json") return written;
-  const int printed = print(report_table(report.members.front(), wants_colour(STDOUT_FILENO)));
+  const bool colour = wants_colour(STDOUT_FILENO);
+  const int printed = print(report.study ? study_table(report, colour)
+                                         : report_table(report.members.front(), colour));
   return written != kExitDone ? written : printed;
 }
 
-int complain_of_failures(const Member& member) {
-  for (const EngineRun& run : member.engines)
-    if (run.status == EngineRun::Status::kFailed)
-      complain(fmt::format("{} failed: {}", run.name, run.reason));
-  return member.failed() ? kExitFailure : kExitDone;
+/// Says what failed. @return how bad the worst member is
+int complain_of_failures(const Report& report) {
+  int code = kExitDone;
+  for (std::size_t i = 0; i < report.members.size(); ++i) {
+    const Member& member = report.members[i].result;
+    // What diverges in a work-precision study is a result, but not its reference or check.
+    const bool may_diverge =
+        report.study && report.study->is_work_precision && i + 2 < report.study->members;
+    const std::string which = report.study ? fmt::format("member {}: ", i + 1) : "";
+    if (member.refused) complain(fmt::format("{}error: {}", which, member.engines[0].reason));
+    if (member.refused) code = std::max<int>(code, kExitFindings);
+    if (may_diverge || !member.failed()) continue;
+    for (const EngineRun& run : member.engines)
+      if (run.status == EngineRun::Status::kFailed)
+        complain(fmt::format("{}{} failed: {}", which, run.name, run.reason));
+    code = kExitFailure;
+  }
+  return code;
 }
 
 int exit_code(const Report& report) {
   if (const int interrupted = interrupt_exit_code(); interrupted != 0) return interrupted;
-  const int failed = complain_of_failures(report.members.front().result);
+  const int failed = complain_of_failures(report);
   if (failed != kExitDone) return failed;
   return report.verdict() == Verdict::kDisagree ? kExitFindings : kExitDone;
 }
 
-int simulate(Bundle bundle, const Options& options) {
+MemberSpec compile_member(const Study& study, std::size_t index) {
+  Diagnostics diagnostics;
+  MemberSpec spec{study.compile(index, diagnostics), {}};
+  for (const Diagnostic& fault : diagnostics.all())
+    if (!spec.bundle && fault.severity == Severity::kError && spec.refusal.empty())
+      spec.refusal = fault.message;
+  return spec;
+}
+
+/// The whole study, or the spec as the one member there is.
+std::vector<ReportedMember> run_members(CompileResult& compiled, const Options& options,
+                                        const RunOptions& run, std::string& write_error) {
+  const auto finished = [&](std::size_t index, const ReportedMember& member) {
+    if (options.folder.empty() || !write_error.empty()) return;
+    write_error = write_trajectories(index, member, options);
+  };
+  std::vector<ReportedMember> members;
+  if (!compiled.study) {
+    members.push_back(run_one({std::move(compiled.bundle), {}}, run));
+    finished(0, members.front());
+    return members;
+  }
+  const Study& study = *compiled.study;
+  const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  return run_study(
+      {study.plan(), [&study](std::size_t index) { return compile_member(study, index); }, finished,
+       options.jobs > 0 ? options.jobs : cores},
+      run);
+}
+
+int simulate(CompileResult compiled, const Options& options) {
   ProgressBar bar(stderr);
   const RunOptions run = run_options(options, bar);
-  const std::string refusal = reference_refusal(bundle.model, run);
+  const std::string refusal =
+      compiled.study ? std::string() : reference_refusal(compiled.bundle->model, run);
   if (!refusal.empty()) {
-    complain(fmt::format("{}: error: {}", bundle.spec_file, refusal));
+    complain(fmt::format("{}: error: {}", compiled.bundle->spec_file, refusal));
     return kExitFindings;
   }
-  Report report{provenance(), {}};
-  Member member = run_member(bundle, run);
+  std::string write_error;
+  Report report{provenance(), run_members(compiled, options, run, write_error)};
   bar.clear();
-  report.members.push_back({std::move(bundle), settings_of(options), std::move(member)});
-  const int delivered = deliver(report, options);
+  if (compiled.study) report.study = compiled.study->plan();
+  if (report.members.empty()) return exit_code(report);  // interrupted before the first
+  Options told = options;
+  if (!write_error.empty()) told.folder.clear();  // the table still is worth printing
+  const int delivered = deliver(report, told);
+  if (!write_error.empty()) {
+    complain(write_error);
+    return kExitInputOutput;
+  }
   return delivered != kExitDone ? delivered : exit_code(report);
 }
 
@@ -197,7 +257,7 @@ int compile_and_simulate(const Options& options) {
   }
   if (const int code = print_diagnostics(diagnostics, options); code != kExitDone) return code;
   if (!result.bundle) return kExitFindings;
-  return simulate(std::move(*result.bundle), options);
+  return simulate(std::move(result), options);
 }
 
 int parse_and_run(int argc, char** argv) {

@@ -33,6 +33,12 @@ const Table<MujocoSpec>& mujoco_table() {
                    "gets the raw state, with the rounding of its large velocity."),
           optional("wheel_mass", &MujocoSpec::wheel_mass, quantity("kg", Range::kPositive),
                    "Token mass of a massless wheel, which MuJoCo cannot do without."),
+          optional("bob_inertia", &MujocoSpec::bob_inertia, quantity("kg m2", Range::kNotNegative),
+                   "Token inertia of pendulum bobs, in MuJoCo alone and in proportion to their "
+                   "mass. 0: the least that loads, and exactly zero in a run."),
+          optional("particle_inertia", &MujocoSpec::particle_inertia,
+                   quantity("kg m2", Range::kNotNegative),
+                   "Token inertia of slosh particles, likewise."),
           optional("compensate", &MujocoSpec::compensate, boolean(),
                    "Take the token masses back out of what carries the wheels, so that the tree is "
                    "exactly the massless-wheel vehicle; `false` adds them on top."),
@@ -73,8 +79,8 @@ void check(const EnginesSpec& engines, const EnvironmentSpec& environment,
 }
 
 EngineControls lower(const EnginesSpec& engines) {
-  return {engines.bsm.attitude, engines.mujoco.frame, engines.mujoco.wheel_mass,
-          engines.mujoco.compensate};
+  return {engines.bsm.attitude,      engines.mujoco.frame,       engines.mujoco.wheel_mass,
+          engines.mujoco.compensate, engines.mujoco.bob_inertia, engines.mujoco.particle_inertia};
 }
 
 Gravity lower_gravity(const EnvironmentSpec& environment, const EnginesSpec& engines) {

@@ -15,7 +15,9 @@ struct BsmSpec : Written {
 
 struct MujocoSpec : Written {
   MujocoFrame frame = MujocoFrame::kComoving;
-  double wheel_mass = 1.0e-6;  // [kg] token mass of a massless wheel
+  double wheel_mass = 1.0e-6;     // [kg] token mass of a massless wheel
+  double bob_inertia = 0.0;       // [kg m^2] token inertia of a pendulum's bob
+  double particle_inertia = 0.0;  // [kg m^2] token inertia of a slosh particle
   bool compensate = true;
   std::optional<GravityLaw> gravity;  // absent: the environment's
 };

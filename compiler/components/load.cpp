@@ -33,7 +33,6 @@ void check(const LoadSpec& load, const Names& names, Diagnostics& diagnostics) {
 void lower(const LoadSpec& spec, ModelBuilder& builder) {
   Load load;
   load.name = spec.name;
-  load.link = builder.find_mount(spec.mount).link;
   load.force_L = spec.force;
   load.torque_L = spec.torque;
   if (spec.during) {
@@ -41,7 +40,7 @@ void lower(const LoadSpec& spec, ModelBuilder& builder) {
     for (Schedule& component : load.torque_L) component = component.during(*spec.during);
   }
   if (const Vector3d* point = std::get_if<Vector3d>(&spec.position)) load.r_FL_L = *point;
-  builder.add_load(std::move(load));
+  builder.add_load(builder.find_mount(spec.mount), std::move(load));
 }
 
 }  // namespace twincraft

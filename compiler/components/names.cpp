@@ -28,20 +28,47 @@ std::vector<std::string> Names::all() const {
   return names;
 }
 
+std::vector<std::string> Names::all(const std::string& what) const {
+  std::vector<std::string> names;
+  for (const auto& [name, entry] : entries_) {
+    if (entry.what == what) names.push_back(name);
+  }
+  return names;
+}
+
 void check_mount(const std::string& mount, Span span, const std::string& who, const Names& names,
                  Diagnostics& diagnostics) {
-  if (mount == "hub") return;
   const std::string what = names.what(mount);
+  if (mount == "hub" || what == "body") return;
+  std::vector<std::string> mounts = names.all("body");
+  const std::string advice =
+      mounts.empty() ? "mount it on `hub`" : "mount it on `hub` or on a body";
   if (!what.empty()) {
     diagnostics
         .error(Code::kMountNotAllowed, span,
                fmt::format("{} cannot be mounted on {} `{}`", who, what, mount))
-        .with_hint("mount it on `hub`");
+        .with_hint(advice);
     return;
   }
-  Diagnostic& unknown = diagnostics.error(Code::kUnknownComponent, span,
-                                          fmt::format("{} is mounted on unknown `{}`", who, mount));
-  unknown.with_hint(nearest(mount, {"hub"}).empty() ? "mount it on `hub`" : "did you mean `hub`?");
+  mounts.push_back("hub");
+  const std::string likely = nearest(mount, mounts);
+  diagnostics
+      .error(Code::kUnknownComponent, span,
+             fmt::format("{} is mounted on unknown `{}`", who, mount))
+      .with_hint(likely.empty() ? advice : fmt::format("did you mean `{}`?", likely));
+}
+
+void check_tank(const std::string& tank, Span span, const std::string& who, const Names& names,
+                Diagnostics& diagnostics) {
+  if (names.what(tank) == "tank") return;
+  std::vector<std::string> tanks;
+  for (const std::string& name : names.all()) {
+    if (names.what(name) == "tank") tanks.push_back(name);
+  }
+  Diagnostic& unknown = diagnostics.error(
+      Code::kUnknownComponent, span, fmt::format("`{}`, which {} names, is no tank", tank, who));
+  const std::string near = nearest(tank, tanks);
+  if (!near.empty()) unknown.with_hint(fmt::format("did you mean `{}`?", near));
 }
 
 }  // namespace twincraft

@@ -19,6 +19,8 @@ class Names {
   /// What kind of component has this name; empty: none.
   std::string what(const std::string& name) const;
   std::vector<std::string> all() const;
+  /// The names of all components of one kind.
+  std::vector<std::string> all(const std::string& what) const;
 
  private:
   struct Entry {
@@ -28,9 +30,13 @@ class Names {
   std::map<std::string, Entry> entries_;
 };
 
-/// Report a mount that does not exist or cannot carry anything. Only the hub can.
+/// Report a mount that does not exist or cannot carry anything: only the hub and bodies can.
 /// @param who   what is to be mounted, for messages: "wheel `rw_x`"
 void check_mount(const std::string& mount, Span span, const std::string& who, const Names& names,
                  Diagnostics& diagnostics);
+
+/// Report a tank that does not exist. @param who  what names it: "thruster `main`"
+void check_tank(const std::string& tank, Span span, const std::string& who, const Names& names,
+                Diagnostics& diagnostics);
 
 }  // namespace twincraft

@@ -136,15 +136,6 @@ void check_length(const PanelSpec& panel, const char* key, const std::vector<dou
       .with_note(panel.span_of("segments"), "one hinge per segment");
 }
 
-void check_depth(const PanelSpec& panel, const std::string& who, Diagnostics& diagnostics) {
-  if (panel.segments <= kMaximumTreeDepth) return;
-  diagnostics.warning(
-      Code::kChainTooDeep, panel.span_of("segments"),
-      fmt::format("{} segments of {} are too many for MuJoCo, which loads chains of "
-                  "{}: the analytic engine goes on alone",
-                  panel.segments, who, kMaximumTreeDepth));
-}
-
 Joint hinge_joint(const PanelSpec& panel, std::size_t i) {
   Joint joint;
   joint.axis_L = Vector3d::UnitY();
@@ -229,7 +220,6 @@ void check(const PanelSpec& panel, const Names& names, Diagnostics& diagnostics)
   check_length(panel, "rest", panel.rest, who, diagnostics);
   check_length(panel, "angle", panel.angle, who, diagnostics);
   check_length(panel, "rate", panel.rate, who, diagnostics);
-  check_depth(panel, who, diagnostics);
 }
 
 void lower(const PanelSpec& panel, ModelBuilder& builder) {

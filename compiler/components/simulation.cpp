@@ -22,9 +22,10 @@ const Table<StepRule>& rule_table() {
       {
           required("per_period", &StepRule::per_period, number(Range::kPositive),
                    "Steps in one period."),
-          required("of", &StepRule::of, reference_to("panel"),
-                   "The panel whose segment's period 2 pi sqrt((I + m d^2)/k) counts; with several "
-                   "stiffnesses the shortest."),
+          required("of", &StepRule::of, reference_to("oscillator"),
+                   "Whose period counts. A panel: its segment's, 2 pi sqrt((I + m d^2)/k), with "
+                   "several stiffnesses the shortest. A particle: 2 pi sqrt(m/k). A pendulum: "
+                   "2 pi sqrt(L/a), a the thrust at t = 0 over the vehicle's mass."),
           optional("maximum", &StepRule::maximum, maybe(quantity("s", Range::kPositive)),
                    "The step is never longer; default no limit."),
       }};
@@ -82,35 +83,36 @@ const Table<BlockTolerancesSpec>& blocks_table() {
   return table;
 }
 
-const PanelSpec* find_panel(const std::vector<PanelSpec>& panels, const std::string& name) {
-  const auto found = std::find_if(panels.begin(), panels.end(),
-                                  [&](const PanelSpec& panel) { return panel.name == name; });
-  return found == panels.end() ? nullptr : &*found;
+const Oscillator* find(const std::vector<Oscillator>& oscillators, const std::string& name) {
+  const auto found = std::find_if(oscillators.begin(), oscillators.end(),
+                                  [&](const Oscillator& each) { return each.name == name; });
+  return found == oscillators.end() ? nullptr : &*found;
 }
 
-double step_of_rule(const StepRule& rule, const PanelSpec& panel) {
-  const double step = segment_period(panel).value() / rule.per_period;
+double step_of_rule(const StepRule& rule, const Oscillator& oscillator) {
+  const double step = oscillator.period.value() / rule.per_period;
   return rule.maximum ? std::min(*rule.maximum, step) : step;
 }
 
 /// @return whether the rule gives a step
-bool check_rule(const StepRule& rule, const std::vector<PanelSpec>& panels,
+bool check_rule(const StepRule& rule, const std::vector<Oscillator>& oscillators,
                 Diagnostics& diagnostics) {
-  const PanelSpec* panel = find_panel(panels, rule.of);
-  if (panel == nullptr) {
+  const Oscillator* oscillator = find(oscillators, rule.of);
+  if (oscillator == nullptr) {
     std::vector<std::string> names;
-    for (const PanelSpec& candidate : panels) names.push_back(candidate.name);
+    for (const Oscillator& candidate : oscillators) names.push_back(candidate.name);
     const std::string near = nearest(rule.of, names);
-    Diagnostic& unknown = diagnostics.error(Code::kUnknownComponent, rule.span_of("of"),
-                                            fmt::format("`{}` is no panel", rule.of));
+    Diagnostic& unknown =
+        diagnostics.error(Code::kUnknownComponent, rule.span_of("of"),
+                          fmt::format("`{}` is no panel, particle or pendulum", rule.of));
     if (!near.empty()) unknown.with_hint(fmt::format("did you mean `{}`?", near));
     return false;
   }
-  if (segment_period(*panel)) return true;
+  if (oscillator->period) return true;
   diagnostics
       .error(Code::kNoPeriod, rule.span_of("of"),
-             fmt::format("panel `{}` has no period: no hinge of it has stiffness", rule.of))
-      .with_note(panel->span_of("stiffness"), "the panel is here");
+             fmt::format("{} has no period: {}", oscillator->who, oscillator->lack))
+      .with_note(oscillator->span, fmt::format("{} is here", oscillator->who));
   return false;
 }
 
@@ -189,8 +191,11 @@ const Table<SimulationSpec>& simulation_table() {
       "How the run is made, the same for both engines.",
       {
           optional("mode", &SimulationSpec::mode,
-                   one_of<SimulationMode>({{"full", SimulationMode::kFull}}),
-                   "`full`: translation, rotation and all coordinates."),
+                   one_of<SimulationMode>({{"full", SimulationMode::kFull},
+                                           {"translation", SimulationMode::kTranslation}}),
+                   "`full`: translation, rotation and all coordinates. `translation`: the hub as a "
+                   "point mass without attitude, its axes along those of N; it carries nothing but "
+                   "loads, whose forces act on it."),
           optional("integrator", &SimulationSpec::integrator,
                    one_of<Method>({{"euler", Method::kEuler},
                                    {"rk2", Method::kRk2},
@@ -215,24 +220,25 @@ const Table<SimulationSpec>& simulation_table() {
   return table;
 }
 
-double step_of(const SimulationSpec& simulation, const std::vector<PanelSpec>& panels) {
+double step_of(const SimulationSpec& simulation, const std::vector<Oscillator>& oscillators) {
   const StepRule* rule = std::get_if<StepRule>(&simulation.step);
   if (rule == nullptr) return std::get<double>(simulation.step);
-  return step_of_rule(*rule, *find_panel(panels, rule->of));
+  return step_of_rule(*rule, *find(oscillators, rule->of));
 }
 
-void check(const SimulationSpec& simulation, const std::vector<PanelSpec>& panels,
+void check(const SimulationSpec& simulation, const std::vector<Oscillator>& oscillators,
            Diagnostics& diagnostics) {
   check_tolerances(simulation, diagnostics);
   const StepRule* rule = std::get_if<StepRule>(&simulation.step);
-  if (rule != nullptr && !check_rule(*rule, panels, diagnostics)) return;
-  check_step(simulation, step_of(simulation, panels), diagnostics);
+  if (rule != nullptr && !check_rule(*rule, oscillators, diagnostics)) return;
+  check_step(simulation, step_of(simulation, oscillators), diagnostics);
 }
 
-SimulationPlan lower(const SimulationSpec& simulation, const std::vector<PanelSpec>& panels) {
+SimulationPlan lower(const SimulationSpec& simulation, const std::vector<Oscillator>& oscillators) {
   SimulationPlan plan;
+  plan.translation = simulation.mode == SimulationMode::kTranslation;
   plan.method = simulation.integrator;
-  plan.step = step_of(simulation, panels);
+  plan.step = step_of(simulation, oscillators);
   plan.duration = simulation.duration;
   plan.record = simulation.record.value_or(default_record(plan.step, plan.duration));
   plan.tolerance = tolerances(simulation);

@@ -1,29 +1,42 @@
 // How the run is made: integrator, step, tolerances, duration, records. The step is a time, or a
-// rule in terms of a panel's own period, which follows the panel through a sweep.
+// rule in terms of a component's own period, which follows the component through a sweep.
 // Tested by tests/compiler/simulation_test.cpp.
 #pragma once
 
 #include <optional>
+#include <string>
 #include <variant>
 #include <vector>
 
-#include "compiler/components/panel.h"
+#include "compiler/ir/model.h"
+#include "compiler/schema/table.h"
 
 namespace twincraft {
 
-/// Motions a run can have; both programs propagate all of them.
-enum class SimulationMode { kFull };
+enum class SimulationMode {
+  kFull,
+  kTranslation,  // a point mass without attitude
+};
 
 /// min(maximum, period of `of` / per_period)
 struct StepRule : Written {
   double per_period = 0.0;
-  std::string of;                 // a panel
+  std::string of;                 // a panel, particle or pendulum
   std::optional<double> maximum;  // [s]
 };
 
 struct AbsoluteRelative : Written {
   double absolute = 0.0;  // unit of the block
   double relative = 0.0;
+};
+
+/// Something a step rule can follow.
+struct Oscillator {
+  std::string name;
+  std::string who;               // for messages: "panel `wing`"
+  std::optional<double> period;  // [s]
+  std::string lack;              // why there is none: "no hinge of it has stiffness"
+  Span span;                     // what to point at then
 };
 
 /// A plain number is both parts.
@@ -53,13 +66,13 @@ struct SimulationSpec : Written {
 const Table<SimulationSpec>& simulation_table();
 
 /// The step in force [s]. @pre check passed
-double step_of(const SimulationSpec& simulation, const std::vector<PanelSpec>& panels);
+double step_of(const SimulationSpec& simulation, const std::vector<Oscillator>& oscillators);
 
-/// Steps must be shorter than the run, rules must find a panel with a spring, and tolerances must
+/// Steps must be shorter than the run, rules must find something with a period, and tolerances must
 /// be reachable in double precision. A step that does not divide the duration is a warning.
-void check(const SimulationSpec& simulation, const std::vector<PanelSpec>& panels,
+void check(const SimulationSpec& simulation, const std::vector<Oscillator>& oscillators,
            Diagnostics& diagnostics);
 
-SimulationPlan lower(const SimulationSpec& simulation, const std::vector<PanelSpec>& panels);
+SimulationPlan lower(const SimulationSpec& simulation, const std::vector<Oscillator>& oscillators);
 
 }  // namespace twincraft

@@ -3,10 +3,20 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace twincraft {
 namespace {
 
 constexpr const char* kFormat = "spacecraft/1";
+
+constexpr const char* kExtendsDoc =
+    "Another spec that this one starts from: a path from the folder of this file. Maps merge by "
+    "key and lists of named members by `name`; other values and lists replace what they meet, and "
+    "an explicit `null` takes an inherited key away. The file lies in the folder tree of the "
+    "compiled spec: its folder and those below, or the tree of the nearest folder above that holds "
+    "a file `.twincraft`. At most 16 files follow one another. The digest in a report is that of "
+    "the texts of all files, the compiled one first.";
 
 Names named_components(const Spec& spec, Diagnostics& diagnostics) {
   Names names;
@@ -17,19 +27,70 @@ Names named_components(const Spec& spec, Diagnostics& diagnostics) {
   };
   add(spec.wheels, "wheel");
   add(spec.panels, "panel");
+  add(spec.bodies, "body");
+  add(spec.tanks, "tank");
+  for (const SloshSpec& slosh : spec.slosh) {
+    const SloshCommon& own = common(slosh);
+    names.add(own.name, "slosh mass", own.written.span_of("name"), diagnostics);
+  }
+  add(spec.thrusters, "thruster");
   add(spec.loads, "load");
   return names;
 }
 
 void check_references(const Spec& spec, Diagnostics& diagnostics) {
-  const bool is_rigid = spec.wheels.empty() && spec.panels.empty();
+  const bool is_rigid = spec.wheels.empty() && spec.panels.empty() &&
+                        std::ranges::all_of(spec.bodies, is_fixed) && spec.slosh.empty() &&
+                        std::ranges::none_of(spec.thrusters, [](const ThrusterSpec& thruster) {
+                          return thruster.tank.has_value();
+                        });
   for (std::size_t i = 0; i < spec.references.size(); ++i) {
     const Span span = spec.node->find("references")->items[i].span;
     check_reference(spec.references[i], span, spec.environment, is_rigid, diagnostics);
   }
 }
 
+/// What is drawn from the tanks, and what sloshes in them, is there.
+void check_tanks(const Spec& spec, Diagnostics& diagnostics) {
+  for (const TankSpec& tank : spec.tanks) {
+    check_content(tank, spec.slosh, diagnostics);
+    check_depletion(tank, spec.thrusters, spec.simulation.duration, diagnostics);
+  }
+}
+
+/// Of the vehicle at t = 0 [kg].
+double total_mass(const Spec& spec) {
+  double sum = spec.hub.mass;
+  for (const WheelSpec& wheel : spec.wheels) sum += wheel.mass;
+  for (const PanelSpec& panel : spec.panels) sum += panel.mass;
+  for (const BodySpec& body : spec.bodies) sum += body.mass;
+  for (const TankSpec& tank : spec.tanks) sum += tank.propellant;
+  for (const SloshSpec& slosh : spec.slosh) sum += common(slosh).tank ? 0.0 : common(slosh).mass;
+  return sum;
+}
+
+Oscillator oscillator(const SloshSpec& slosh, double acceleration) {
+  if (const auto* pendulum = std::get_if<PendulumSpec>(&slosh)) {
+    return {pendulum->name, fmt::format("pendulum `{}`", pendulum->name),
+            period_of(*pendulum, acceleration), "no thruster burns at t = 0", pendulum->span()};
+  }
+  const auto& particle = std::get<ParticleSpec>(slosh);
+  return {particle.name, fmt::format("particle `{}`", particle.name), period_of(particle),
+          "it has no stiffness", particle.span_of("stiffness")};
+}
+
 }  // namespace
+
+std::vector<Oscillator> oscillators(const Spec& spec) {
+  std::vector<Oscillator> all;
+  for (const PanelSpec& panel : spec.panels) {
+    all.push_back({panel.name, fmt::format("panel `{}`", panel.name), segment_period(panel),
+                   "no hinge of it has stiffness", panel.span_of("stiffness")});
+  }
+  const double acceleration = thrust_at_start(spec.thrusters).norm() / total_mass(spec);
+  for (const SloshSpec& slosh : spec.slosh) all.push_back(oscillator(slosh, acceleration));
+  return all;
+}
 
 const Table<Spec>& spec_table() {
   static const Table<Spec> table{
@@ -38,11 +99,21 @@ const Table<Spec>& spec_table() {
       "number is in SI units; a text such as `12 deg` carries its unit.",
       {
           required("format", &Spec::format, text(), "The language's version: `spacecraft/1`."),
+          optional("extends", &Spec::extends, maybe(text()), kExtendsDoc),
+          optional("drop", &Spec::drop, maybe(list_of(name())),
+                   "Names of components of the extended spec to leave out. They are removed before "
+                   "this spec's own are put in."),
           required("name", &Spec::name, name(), "Names the emitted files."),
           optional("description", &Spec::description, text(), "Free text."),
           required("hub", &Spec::hub, object(hub_table()), "The body that carries the rest."),
           optional("wheels", &Spec::wheels, list_of(object(wheel_table())), "Reaction wheels."),
           optional("panels", &Spec::panels, list_of(object(panel_table())), "Solar arrays."),
+          optional("bodies", &Spec::bodies, list_of(object(body_table())),
+                   "Rigid bodies on joints, in chains and branches."),
+          optional("tanks", &Spec::tanks, list_of(object(tank_table())), "Propellant tanks."),
+          optional("slosh", &Spec::slosh, list_of(slosh()), "Moving propellant."),
+          optional("thrusters", &Spec::thrusters, list_of(object(thruster_table())),
+                   "Thrust, and what it takes out of the tanks."),
           optional("loads", &Spec::loads, list_of(object(load_table())),
                    "External forces and torques."),
           optional("environment", &Spec::environment, object(environment_table()),
@@ -58,6 +129,8 @@ const Table<Spec>& spec_table() {
           optional("references", &Spec::references, list_of(reference_kind()),
                    "Analytic truths to compare each engine with: `kepler`, the two-body orbit; "
                    "`spin_up`, a rigid body under a constant torque about a principal axis."),
+          optional("study", &Spec::study, maybe(object(study_table())),
+                   "Run many variants of this spec instead of one."),
       }};
   return table;
 }
@@ -77,11 +150,19 @@ void check(const Spec& spec, Diagnostics& diagnostics) {
   check(spec.hub, diagnostics);
   for (const WheelSpec& wheel : spec.wheels) check(wheel, names, diagnostics);
   for (const PanelSpec& panel : spec.panels) check(panel, names, diagnostics);
+  for (const BodySpec& body : spec.bodies) check(body, names, diagnostics);
+  check_circles(spec.bodies, diagnostics);
+  for (const TankSpec& tank : spec.tanks) check(tank, names, diagnostics);
+  for (const SloshSpec& slosh : spec.slosh) check(slosh, spec.tanks, names, diagnostics);
+  for (const ThrusterSpec& thruster : spec.thrusters) check(thruster, names, diagnostics);
   for (const LoadSpec& load : spec.loads) check(load, names, diagnostics);
+  if (!diagnostics.has_errors()) check_tanks(spec, diagnostics);
   check(spec.initial, spec.environment, diagnostics);
-  check(spec.simulation, spec.panels, diagnostics);
+  check(spec.simulation, oscillators(spec), diagnostics);
   check(spec.engines, spec.environment, diagnostics);
   check_references(spec, diagnostics);
+  check_point_mass(spec, diagnostics);
+  if (spec.study) members_of(*spec.study, diagnostics);
 }
 
 }  // namespace twincraft

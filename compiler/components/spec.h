@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "compiler/components/agreement.h"
+#include "compiler/components/body.h"
 #include "compiler/components/engines.h"
 #include "compiler/components/environment.h"
 #include "compiler/components/hub.h"
@@ -15,17 +16,28 @@
 #include "compiler/components/load.h"
 #include "compiler/components/panel.h"
 #include "compiler/components/simulation.h"
+#include "compiler/components/slosh.h"
+#include "compiler/components/study.h"
+#include "compiler/components/tank.h"
+#include "compiler/components/thruster.h"
 #include "compiler/components/wheel.h"
 
 namespace twincraft {
 
 struct Spec : Written {
+  // Followed before a spec is read, so never found here; for the schema and the reference.
+  std::optional<std::string> extends;
+  std::optional<std::vector<std::string>> drop;
   std::string format;
   std::string name;
   std::string description;
   HubSpec hub;
   std::vector<WheelSpec> wheels;
   std::vector<PanelSpec> panels;
+  std::vector<BodySpec> bodies;
+  std::vector<TankSpec> tanks;
+  std::vector<SloshSpec> slosh;
+  std::vector<ThrusterSpec> thrusters;
   std::vector<LoadSpec> loads;
   EnvironmentSpec environment;
   InitialSpec initial;
@@ -33,6 +45,7 @@ struct Spec : Written {
   EnginesSpec engines;
   AgreementSpec agreement;
   std::vector<ReferenceKind> references;
+  std::optional<StudySpec> study;
 };
 
 const Table<Spec>& spec_table();
@@ -42,8 +55,14 @@ const Table<Spec>& spec_table();
 /// the table.
 bool check_format(const Node& root, Diagnostics& diagnostics);
 
+/// Everything that a step rule can follow.
+std::vector<Oscillator> oscillators(const Spec& spec);
+
 /// Unique names, references between components, and every component's own check.
 void check(const Spec& spec, Diagnostics& diagnostics);
+
+/// A point mass (`simulation.mode: translation`) carries and turns nothing. Part of check().
+void check_point_mass(const Spec& spec, Diagnostics& diagnostics);
 
 /// Both halves of the model, with its initial state. Nothing when a wheel's token mass leaves no
 /// physical mount, which is reported. @pre check reported no error

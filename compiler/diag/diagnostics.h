@@ -68,6 +68,8 @@ class Diagnostics {
   Diagnostic& error(Code code, Span span, std::string message);
   Diagnostic& warning(Code code, Span span, std::string message);
   Diagnostic& note(Code code, Span span, std::string message);
+  /// One that was made elsewhere.
+  void take(Diagnostic diagnostic) { all_.push_back(std::move(diagnostic)); }
 
   bool has_errors() const { return error_count() > 0; }
   std::size_t error_count() const;

@@ -22,8 +22,10 @@ struct Joint {
   Vector3d axis_L = Vector3d::UnitZ();      // unit vector, link axes
   double stiffness = 0.0;                   // k [N m/rad] or [N/m]
   double damping = 0.0;                     // c [N m s/rad] or [N s/m]
-  double rest = 0.0;                        // [rad] or [m]
-  Schedule effort;                          // u [N m] or [N]
+  // Drag on the bob of a spherical pendulum: c is scaled by cos^2 of another link's coordinate.
+  int damped_by_cosine_of = -1;  // index of that link; -1: c is constant
+  double rest = 0.0;             // [rad] or [m]
+  Schedule effort;               // u [N m] or [N]
 };
 
 struct Link {

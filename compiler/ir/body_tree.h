@@ -1,5 +1,6 @@
 // The MuJoCo half: the tree of bodies that is printed as MJCF, in MJCF's own terms. Bodies come in
 // the order of the file, parents before children; bodies[0] is the hub and has the free joint.
+// Tested by tests/compiler/model_builder_test.cpp and verify_test.cpp.
 #pragma once
 
 #include <string>
@@ -22,11 +23,17 @@ struct TreeJoint {
 struct TreeBody {
   std::string name;
   int parent = -1;
-  int link = -1;                    // the link of the analytic half it stands for; wheels: -1
-  Vector3d pos = Vector3d::Zero();  // [m] in the parent's axes
+  // The link of the analytic half it stands for; of a welded body the link that carries it; of a
+  // wheel -1.
+  int link = -1;
+  Vector3d pos = Vector3d::Zero();             // [m] in the parent's axes
   Quaterniond quat = Quaterniond::Identity();  // body to parent
   std::vector<TreeJoint> joints;               // none: welded. The hub's free joint is implied.
   MassProperties inertial;  // about its own centre of mass, body axes, as emitted
+  int tank = -1;            // Model::tanks entry that scales the inertial; -1: it is fixed
+  // [kg m^2] isotropic and counted in `inertial`: an inertia that MuJoCo is given and the analytic
+  // half does not have. It scales with the mass.
+  double token_inertia = 0.0;
   // What gravity pulls on: the ledger's elements on this body plus token masses that were added on
   // top. A token mass taken back out of its mount is no element.
   std::vector<MassElement> elements;
@@ -42,5 +49,22 @@ struct BodyTree {
   std::vector<TreeBody> bodies;
   std::vector<TreeWheel> wheels;
 };
+
+/// Where a body sits: on its own link, or fixed on the link that carries it. A wheel counts as
+/// fixed: its centre stays in place and its tensor does not see its spin.
+struct Seat {
+  int link = 0;
+  Matrix3d dcm_LS = Matrix3d::Identity();  // body to link components
+  Vector3d r_SL_L = Vector3d::Zero();      // [m] the body's origin from the link's
+};
+
+/// One per body.
+std::vector<Seat> seats_of(const BodyTree& tree);
+
+/// How many bodies deep each one hangs below the hub.
+std::vector<int> depths_of(const BodyTree& tree);
+
+/// An element of a body, in the axes of the link that carries it.
+MassElement seated(const MassElement& element, const Seat& seat);
 
 }  // namespace twincraft

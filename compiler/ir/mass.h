@@ -19,6 +19,8 @@ struct MassElement {
   double mass = 0.0;                     // [kg]; zero for the tensor of a massless wheel
   Vector3d r_EL_L = Vector3d::Zero();    // [m] its centre of mass E from the link's origin
   Matrix3d I_PntE_L = Matrix3d::Zero();  // [kg m^2] about E, link axes
+  int tank =
+      -1;  // Model::tanks entry it drains with: mass and inertia are those of t = 0; -1: none
 };
 
 /// Mass, centre of mass and inertia of several elements together.

@@ -9,6 +9,7 @@
 
 #include "compiler/ir/assembly.h"
 #include "compiler/ir/body_tree.h"
+#include "compiler/ir/propellant.h"
 
 namespace twincraft {
 
@@ -70,6 +71,7 @@ struct BlockTolerances {
 };
 
 struct SimulationPlan {
+  bool translation = false;  // a point mass: the hub alone, its axes along those of N for good
   Method method = Method::kRk4;
   double step = 0.0;      // [s] fixed step, or the interval an adaptive method always lands on
   double duration = 0.0;  // [s]
@@ -85,6 +87,9 @@ struct EngineControls {
   MujocoFrame frame = MujocoFrame::kComoving;
   double wheel_mass = 1.0e-6;  // [kg] token mass of a massless wheel in the tree
   bool compensate = true;
+  // [kg m^2] token inertias of pendulum bobs and particles, in the tree alone
+  double bob_inertia = 0.0;
+  double particle_inertia = 0.0;
 };
 
 /// Tolerances of the verdict; absent: reported, not judged.
@@ -108,6 +113,7 @@ struct Model {
   BodyTree tree;
   std::vector<Coordinate> coordinates;
   std::vector<Load> loads;
+  std::vector<Tank> tanks;
   Gravity gravity;
   InitialState initial;
   SimulationPlan simulation;
@@ -117,8 +123,9 @@ struct Model {
   // Why the tree cannot be loaded by MuJoCo (a chain too deep); empty when it can.
   std::string mujoco_refusal;
 
-  /// Velocity coordinates: 6 + joints + wheels.
+  /// Velocity coordinates: 6 + joints + wheels; 3 of a point mass.
   int degrees_of_freedom() const {
+    if (simulation.translation) return 3;
     return 6 + static_cast<int>(assembly.links.size()) - 1 +
            static_cast<int>(assembly.rotors.size());
   }

@@ -37,6 +37,24 @@ Schedule Schedule::during(const std::vector<Interval>& intervals) const {
   return gated;
 }
 
+Schedule Schedule::scaled(double factor) const {
+  Schedule product = *this;
+  for (Entry& entry : product.entries) entry.value *= factor;
+  return product;
+}
+
+Schedule operator+(const Schedule& a, const Schedule& b) {
+  std::vector<double> times;
+  for (const Schedule* schedule : {&a, &b}) {
+    for (const Schedule::Entry& entry : schedule->entries) times.push_back(entry.time);
+  }
+  std::sort(times.begin(), times.end());
+  times.erase(std::unique(times.begin(), times.end()), times.end());
+  Schedule sum;
+  for (const double time : times) sum.entries.push_back({time, a.at(time) + b.at(time)});
+  return sum;
+}
+
 std::vector<double> event_times(const std::vector<const Schedule*>& schedules, double end) {
   std::vector<double> times;
   for (const Schedule* schedule : schedules) {

@@ -25,7 +25,11 @@ struct Schedule {
     double end;    // [s]
   };
   Schedule during(const std::vector<Interval>& intervals) const;
+
+  Schedule scaled(double factor) const;
 };
+
+Schedule operator+(const Schedule& a, const Schedule& b);
 
 /// All finite entry times, sorted, without repeats, inside (0, end).
 std::vector<double> event_times(const std::vector<const Schedule*>& schedules, double end);

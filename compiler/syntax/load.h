@@ -19,12 +19,12 @@ inline constexpr std::size_t kMaximumNodes = 1'000'000;
 inline constexpr int kMaximumDepth = 64;
 
 /// The bytes of a file, or of standard input for `-`; an I/O fault comes back as text. Never blocks
-/// on a FIFO or reads from a device: those are faults.
+/// on a FIFO or reads from a device: those are faults. `shown` is what the fault calls the file.
 struct FileText {
   std::string text;
   std::string error;  // empty: read
 };
-FileText read_file(const std::string& path);
+FileText read_file(const std::string& path, std::string_view shown = {});
 
 /// Parse one document whose root is a map. Nothing on error; all faults are in `diagnostics`.
 std::optional<Node> parse(const Source& source, Diagnostics& diagnostics);

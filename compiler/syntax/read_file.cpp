@@ -33,9 +33,8 @@ class File {
   int descriptor_;
 };
 
-FileText failure(const std::string& path, std::string_view reason) {
-  const std::string shown = path == "-" ? "standard input" : in_backticks(path);
-  return {{}, fmt::format("cannot read {}: {}", shown, reason)};
+FileText failure(std::string_view what, std::string_view reason) {
+  return {{}, fmt::format("cannot read {}: {}", what, reason)};
 }
 
 /// What the last system call says, in lower case as all our messages.
@@ -62,23 +61,25 @@ std::string unreadable_kind(const struct stat& status, bool standard_input) {
 
 }  // namespace
 
-FileText read_file(const std::string& path) {
+FileText read_file(const std::string& path, std::string_view shown) {
+  const std::string what =
+      path == "-" ? "standard input" : in_backticks(shown.empty() ? path : shown);
   // Without O_NONBLOCK in File, opening a FIFO that nobody writes to would wait for ever.
   const File file(path);
-  if (file.descriptor() < 0) return failure(path, system_reason());
+  if (file.descriptor() < 0) return failure(what, system_reason());
   struct stat status {};
-  if (::fstat(file.descriptor(), &status) != 0) return failure(path, system_reason());
+  if (::fstat(file.descriptor(), &status) != 0) return failure(what, system_reason());
   if (const std::string kind = unreadable_kind(status, path == "-"); !kind.empty()) {
-    return failure(path, kind);
+    return failure(what, kind);
   }
   FileText result;
   std::array<char, 65536> buffer;
   while (true) {
     const ssize_t count = ::read(file.descriptor(), buffer.data(), buffer.size());
-    if (count < 0) return failure(path, system_reason());
+    if (count < 0) return failure(what, system_reason());
     if (count == 0) return result;
     result.text.append(buffer.data(), static_cast<std::size_t>(count));
-    if (result.text.size() > kMaximumFileBytes) return failure(path, too_large());
+    if (result.text.size() > kMaximumFileBytes) return failure(what, too_large());
   }
 }
 

@@ -10,20 +10,27 @@ struct MovingElement {
   double spin_energy;        // [J]
 };
 
-MovingElement moving(const MassElement& element, const LinkPose& pose, const LinkRate& rate) {
+/// @param scale  of mass and inertia: the tank's share, or its rate for what leaves
+MovingElement moving(const MassElement& element, double scale, const LinkPose& pose,
+                     const LinkRate& rate) {
   const Vector3d r_EL = pose.dcm_WL * element.r_EL_L;
   const Vector3d omega_L = pose.dcm_WL.transpose() * rate.omega_LN_W;
-  const Vector3d spin_L = element.I_PntE_L * omega_L;
-  return {element.mass, pose.r_LB_W + r_EL, rate.v_LN_W + rate.omega_LN_W.cross(r_EL),
+  const Vector3d spin_L = scale * element.I_PntE_L * omega_L;
+  return {scale * element.mass, pose.r_LB_W + r_EL, rate.v_LN_W + rate.omega_LN_W.cross(r_EL),
           pose.dcm_WL * spin_L, 0.5 * omega_L.dot(spin_L)};
 }
 
+/// @param scales         of every tank's elements
+/// @param without_a_tank  of all others
 std::vector<MovingElement> moving_elements(Recursion& recursion, const Assembly& assembly,
+                                           std::span<const double> scales, double without_a_tank,
                                            std::span<const LinkRate> rates) {
   std::vector<MovingElement> elements;
   for (std::size_t i = 0; i < assembly.links.size(); ++i) {
     for (const MassElement& element : assembly.links[i].elements) {
-      elements.push_back(moving(element, recursion.poses()[i], rates[i]));
+      const double scale =
+          element.tank < 0 ? without_a_tank : scales[static_cast<std::size_t>(element.tank)];
+      elements.push_back(moving(element, scale, recursion.poses()[i], rates[i]));
     }
   }
   return elements;
@@ -31,11 +38,12 @@ std::vector<MovingElement> moving_elements(Recursion& recursion, const Assembly&
 
 }  // namespace
 
-Totals sum_up(Recursion& recursion, const Assembly& assembly, std::span<const double> q_dot,
-              std::span<const double> rotor_speed) {
+Totals sum_up(Recursion& recursion, const Assembly& assembly, std::span<const double> shares,
+              std::span<const double> q_dot, std::span<const double> rotor_speed) {
   std::vector<LinkRate> rates(assembly.links.size());
   recursion.rates(q_dot, rates);
-  const std::vector<MovingElement> elements = moving_elements(recursion, assembly, rates);
+  const std::vector<MovingElement> elements =
+      moving_elements(recursion, assembly, shares, 1.0, rates);
 
   Totals totals;
   for (const MovingElement& e : elements) {
@@ -66,6 +74,24 @@ Totals sum_up(Recursion& recursion, const Assembly& assembly, std::span<const do
   return totals;
 }
 
+// All totals are sums over elements, scaled by their masses, but for the motion of C; and at fixed
+// motion that drops out of H, because neither sum of m (r - r_C) nor of m (v - v_C) is anything.
+Leaving sum_up_leaving(Recursion& recursion, const Assembly& assembly,
+                       std::span<const double> q_dot, std::span<const double> share_rates,
+                       const Totals& totals) {
+  std::vector<LinkRate> rates(assembly.links.size());
+  recursion.rates(q_dot, rates);
+  const Vector3d v_C = totals.momentum_B / totals.mass;
+  Leaving leaving;
+  for (const MovingElement& e : moving_elements(recursion, assembly, share_rates, 0.0, rates)) {
+    leaving.mass += e.mass;
+    leaving.momentum_B += e.mass * e.v_E;
+    leaving.H_PntC_B += (e.r_EB - totals.r_CB_B).cross(e.mass * (e.v_E - v_C)) + e.spin;
+    leaving.kinetic += 0.5 * e.mass * e.v_E.squaredNorm() + e.spin_energy;
+  }
+  return leaving;
+}
+
 void fill_books(const Totals& totals, const Matrix3d& dcm_NB, Observation& o) {
   o.mass = totals.mass;
   o.r_CN_N = o.r_BN_N + dcm_NB * totals.r_CB_B;
@@ -86,11 +112,11 @@ double spring_energy(const Tree& tree, std::span<const double> q) {
   return energy;
 }
 
-double joint_power(const Tree& tree, std::span<const double> q_dot,
+double joint_power(const Tree& tree, std::span<const double> q, std::span<const double> q_dot,
                    std::span<const double> effort) {
   double power = 0.0;
   for (std::size_t i = 1; i < tree.links.size(); ++i) {
-    power += (effort[i - 1] - tree.links[i].damping * q_dot[i - 1]) * q_dot[i - 1];
+    power += (effort[i - 1] - damping_of(tree.links[i], q) * q_dot[i - 1]) * q_dot[i - 1];
   }
   return power;
 }

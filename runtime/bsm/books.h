@@ -17,16 +17,31 @@ struct Totals {
   double momentum_scale = 0.0, H_scale = 0.0;  // sums of magnitudes
 };
 
-/// @pre recursion.move() was called for this instant
-Totals sum_up(Recursion& recursion, const Assembly& assembly, std::span<const double> q_dot,
-              std::span<const double> rotor_speed);
+/// @param shares  of every tank. @pre recursion.move() was called for this instant
+Totals sum_up(Recursion& recursion, const Assembly& assembly, std::span<const double> shares,
+              std::span<const double> q_dot, std::span<const double> rotor_speed);
+
+/// What leaves the books because mass leaves the vehicle: their rates at fixed motion. The velocity
+/// of B is taken as zero here too.
+struct Leaving {
+  double mass = 0.0;                       // [kg/s]
+  Vector3d momentum_B = Vector3d::Zero();  // [N] relative to B
+  Vector3d H_PntC_B = Vector3d::Zero();    // [N m] about C
+  double kinetic = 0.0;                    // [W] relative to B
+};
+
+/// @param share_rates  of every tank [1/s]. @pre as for sum_up, of which these are the totals
+Leaving sum_up_leaving(Recursion& recursion, const Assembly& assembly,
+                       std::span<const double> q_dot, std::span<const double> share_rates,
+                       const Totals& totals);
 
 /// Centre of mass, momenta and kinetic energy in N; needs o.r_BN_N and o.v_BN_N.
 void fill_books(const Totals& totals, const Matrix3d& dcm_NB, Observation& o);
 
 double spring_energy(const Tree& tree, std::span<const double> q);  // [J]
 /// Efforts less what the dampers take [W].
-double joint_power(const Tree& tree, std::span<const double> q_dot, std::span<const double> effort);
+double joint_power(const Tree& tree, std::span<const double> q, std::span<const double> q_dot,
+                   std::span<const double> effort);
 double motor_power(std::span<const double> rotor_speed, std::span<const double> torque);  // [W]
 
 /// Over (v_B in N, omega in B, qDot, wheel speeds), summed from partial velocities.

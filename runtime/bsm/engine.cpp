@@ -3,7 +3,9 @@
 
 #include "runtime/bsm/attitude.h"
 #include "runtime/bsm/books.h"
+#include "runtime/bsm/point_mass_engine.h"
 #include "runtime/bsm/recursion.h"
+#include "runtime/forces/propellant_ledger.h"
 
 namespace twincraft {
 namespace bsm {
@@ -22,6 +24,8 @@ class BsmEngine final : public Engine {
       : assembly_(model.assembly),
         initial_(model.initial),
         recursion_(model.assembly),
+        propellant_(model.tanks),
+        shares_(propellant_.shares(0.0)),
         forces_(model, model.gravity.bsm, elements_of(model.assembly), FieldFrame::kFalling),
         layout_{chart, static_cast<int>(model.assembly.links.size()) - 1,
                 static_cast<int>(model.assembly.rotors.size())},
@@ -57,10 +61,13 @@ class BsmEngine final : public Engine {
       motor_torque_[k] = assembly_.rotors[k].torque.at(time);
     }
     forces_.hold(time);
+    propellant_.hold(time);
+    drain(time);
   }
 
-  void derivative(double /*time*/, std::span<const double> state, std::span<double> rate) override {
+  void derivative(double time, std::span<const double> state, std::span<double> rate) override {
     const State x = read(state);
+    drain(time);
     recursion_.move(x.q, x.q_dot, x.omega_BN_B, x.rotor_speed);
     Vector3d g_B = Vector3d::Zero();
     if (!forces_.is_silent()) {
@@ -83,6 +90,7 @@ class BsmEngine final : public Engine {
 
   Observation observe(double time, std::span<const double> state) override {
     const State x = read(state);
+    drain(time);
     recursion_.move(x.q, x.q_dot, x.omega_BN_B, x.rotor_speed);
     Observation o = books(time, x);
     o.q_BN = Chart::quaternion(x.attitude);
@@ -90,8 +98,9 @@ class BsmEngine final : public Engine {
     return o;
   }
 
-  ExternalRates external_rates(double /*time*/, std::span<const double> state) override {
+  ExternalRates external_rates(double time, std::span<const double> state) override {
     const State x = read(state);
+    drain(time);
     recursion_.move(x.q, x.q_dot, x.omega_BN_B, x.rotor_speed);
     return outside(x);
   }
@@ -137,6 +146,14 @@ class BsmEngine final : public Engine {
             block(state, layout_.wheel(), layout_.wheels)};
   }
 
+  /// Everything that depends on mass follows the tanks.
+  void drain(double time) {
+    if (propellant_.is_idle()) return;
+    shares_ = propellant_.shares(time);
+    recursion_.set_shares(shares_);
+    forces_.set_shares(shares_);
+  }
+
   std::span<const Wrench> acting_wrenches() const {
     return forces_.is_idle() ? std::span<const Wrench>{} : wrenches_;
   }
@@ -150,7 +167,7 @@ class BsmEngine final : public Engine {
     o.joint_position.assign(x.q.begin(), x.q.end());
     o.joint_rate.assign(x.q_dot.begin(), x.q_dot.end());
     o.wheel_rate.assign(x.rotor_speed.begin(), x.rotor_speed.end());
-    const Totals totals = sum_up(recursion_, assembly_, x.q_dot, x.rotor_speed);
+    const Totals totals = sum_up(recursion_, assembly_, shares_, x.q_dot, x.rotor_speed);
     fill_books(totals, x.dcm_NB, o);
     o.potential = spring_energy(recursion_.tree(), x.q) +
                   forces_.potential(x.dcm_NB.transpose() * x.r_BN_N, recursion_.poses());
@@ -158,7 +175,7 @@ class BsmEngine final : public Engine {
   }
 
   ExternalRates outside(const State& x) {
-    const Totals totals = sum_up(recursion_, assembly_, x.q_dot, x.rotor_speed);
+    const Totals totals = sum_up(recursion_, assembly_, shares_, x.q_dot, x.rotor_speed);
     const Vector3d r_BN_B = x.dcm_NB.transpose() * x.r_BN_N;
     std::fill(wrenches_.begin(), wrenches_.end(), Wrench{});
     const Vector3d g_B = forces_.apply(r_BN_B, recursion_.poses(), wrenches_);
@@ -171,15 +188,32 @@ class BsmEngine final : public Engine {
     std::vector<LinkRate> rates(wrenches_.size());
     recursion_.rates(x.q_dot, rates);
     for (LinkRate& rate : rates) rate.v_LN_W += x.dcm_NB.transpose() * x.v_BN_N;
-    const double power = joint_power(recursion_.tree(), x.q_dot, effort_) +
+    const double power = joint_power(recursion_.tree(), x.q, x.q_dot, effort_) +
                          motor_power(x.rotor_speed, motor_torque_) +
                          forces_.power(r_BN_B, recursion_.poses(), rates);
-    return {power, x.dcm_NB * force_B, x.dcm_NB * torque_PntC_B};
+    ExternalRates rates_outside{power, x.dcm_NB * force_B, x.dcm_NB * torque_PntC_B};
+    if (!propellant_.is_idle()) add_leaving(x, totals, rates_outside);
+    return rates_outside;
+  }
+
+  /// Propellant takes its own energy and momentum along.
+  void add_leaving(const State& x, const Totals& totals, ExternalRates& rates) {
+    const std::span<const double> share_rates = propellant_.share_rates();
+    const Leaving leaving = sum_up_leaving(recursion_, assembly_, x.q_dot, share_rates, totals);
+    const Vector3d v_BN_B = x.dcm_NB.transpose() * x.v_BN_N;
+    rates.power +=
+        leaving.kinetic + leaving.momentum_B.dot(v_BN_B) +
+        0.5 * leaving.mass * v_BN_B.squaredNorm() +
+        forces_.potential_rate(x.dcm_NB.transpose() * x.r_BN_N, recursion_.poses(), share_rates);
+    rates.force_N += x.dcm_NB * leaving.momentum_B + leaving.mass * x.v_BN_N;
+    rates.torque_PntC_N += x.dcm_NB * leaving.H_PntC_B;
   }
 
   Assembly assembly_;
   InitialState initial_;
   Recursion recursion_;
+  PropellantLedger propellant_;
+  std::span<const double> shares_;
   ForceModel forces_;
   StateLayout layout_;
   std::vector<double> effort_, motor_torque_;
@@ -190,6 +224,7 @@ class BsmEngine final : public Engine {
 }  // namespace bsm
 
 std::unique_ptr<Engine> make_bsm_engine(const Model& model) {
+  if (model.simulation.translation) return bsm::make_point_mass_engine(model);
   if (model.engines.attitude == AttitudeChart::kMrp) {
     return std::make_unique<bsm::BsmEngine<bsm::MrpChart>>(model, AttitudeChart::kMrp);
   }

@@ -21,13 +21,6 @@ Matrix3d chain_axes(const Vector3d& s, const Vector3d& along) {
   return dcm_PC;
 }
 
-bool is_only_child(const Tree& tree, std::size_t link) {
-  const int parent = tree.links[link].parent;
-  int children = 0;
-  for (const auto& other : tree.links) children += other.parent == parent ? 1 : 0;
-  return children == 1;
-}
-
 bool carries_rotor(const Tree& tree, std::size_t link) {
   for (const RotorConstants& rotor : tree.rotors) {
     if (rotor.link == static_cast<int>(link)) return true;
@@ -39,13 +32,10 @@ bool carries_rotor(const Tree& tree, std::size_t link) {
 std::size_t tail_length(const Tree& tree, std::size_t first) {
   std::size_t last = first;
   while (last + 1 < tree.links.size() && tree.links[last + 1].parent == static_cast<int>(last)) {
-    if (!is_only_child(tree, last + 1)) return 0;
+    if (tree.links[last].children > 1) return 0;
     ++last;
   }
-  for (std::size_t i = last + 1; i < tree.links.size(); ++i) {
-    if (tree.links[i].parent == static_cast<int>(last)) return 0;
-  }
-  return last - first + 1;
+  return tree.links[last].children == 0 ? last - first + 1 : 0;
 }
 
 }  // namespace
@@ -65,6 +55,7 @@ std::optional<PlanarChain> PlanarChain::from(const Tree& tree, std::size_t first
     const auto& link = tree.links[i];
     const Vector3d axis_C = dcm_CL * link.axis_P;
     if (link.kind != JointKind::kHinge || carries_rotor(tree, i)) return std::nullopt;
+    if (link.drains || link.damped_by_cosine_of >= 0) return std::nullopt;
     if ((axis_C - Vector3d::UnitY()).norm() > kZero) return std::nullopt;
     if (i > first) {
       const Vector3d next = dcm_CL * link.r_HP_P;

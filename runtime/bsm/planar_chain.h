@@ -31,7 +31,8 @@ using Vector2d = Eigen::Vector2d;
 class PlanarChain {
  public:
   /// The whole subtree from link `first` on as a planar chain, if it is one: each link the only
-  /// child of the one before, hinges parallel, everything balanced about their plane, no rotors.
+  /// child of the one before, hinges parallel, everything balanced about their plane, no rotors,
+  /// masses and dampings constant.
   static std::optional<PlanarChain> from(const Tree& tree, std::size_t first);
 
   std::size_t first() const { return first_; }

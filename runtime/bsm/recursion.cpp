@@ -30,7 +30,7 @@ Recursion::Recursion(const Assembly& assembly, Chains chains)
       omega_dots_(tree_.links.size()),
       accelerations_(tree_.links.size()),
       chain_wrenches_(tree_.links.size()) {
-  // The hub's own frame is the working frame: its pose and mass never change.
+  // The hub's own frame is the working frame: its pose never changes, its mass only by draining.
   const LinkConstants& hub = tree_.links.front();
   poses_.front() = {Matrix3d::Identity(), Vector3d::Zero()};
   motions_.front().J = hub.J_L;
@@ -42,7 +42,7 @@ Recursion::Recursion(const Assembly& assembly, Chains chains)
     });
     if (!in_chain) singles_.push_back(i);
   }
-  if (tree_.links.size() == 1) {
+  if (tree_.links.size() == 1 && !hub.drains) {
     begin_law(0);
     rigid_hub_.emplace(laws_.front());
   }
@@ -110,6 +110,12 @@ void Recursion::hang(Tail& tail, std::span<const double> q, std::span<const doub
   }
   tail.a_bias = omega.cross(omega.cross(tail.r_HP));
   chain.move(part_of(chain, q), part_of(chain, q_dot), tail.dcm_WC.transpose() * omega);
+}
+
+void Recursion::set_shares(std::span<const double> shares) {
+  bsm::set_shares(tree_, shares);
+  motions_.front().J = tree_.links.front().J_L;
+  motions_.front().moment = tree_.links.front().first_moment;
 }
 
 void Recursion::move(std::span<const double> q, std::span<const double> q_dot,
@@ -268,7 +274,7 @@ void Recursion::accelerate(std::span<const double> q, std::span<const double> q_
     const std::size_t i = singles_[k];
     const LinkConstants& link = tree_.links[i];
     eliminate(i, inputs.effort[i - 1] - link.stiffness * (q[i - 1] - link.rest) -
-                     link.damping * q_dot[i - 1]);
+                     damping_of(link, q) * q_dot[i - 1]);
   }
   if (rigid_hub_) {
     solve_hub(*rigid_hub_);

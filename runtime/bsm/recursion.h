@@ -41,6 +41,9 @@ class Recursion {
  public:
   explicit Recursion(const Assembly& assembly, Chains chains = Chains::kPlanar);
 
+  /// Masses of what drains with the tanks, one share per tank, for the next move(). Full at first.
+  void set_shares(std::span<const double> shares);
+
   /// Positions and rates of all links from q, qDot [rad, m] and omega_BN_B [rad/s].
   void move(std::span<const double> q, std::span<const double> q_dot, const Vector3d& omega_BN_B,
             std::span<const double> rotor_speed);

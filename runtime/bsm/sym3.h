@@ -40,6 +40,9 @@ struct Sym3 {
   }
 
   friend Sym3 operator+(Sym3 a, const Sym3& b) { return a += b; }
+  friend Sym3 operator*(double s, const Sym3& a) {
+    return {s * a.xx, s * a.yy, s * a.zz, s * a.xy, s * a.xz, s * a.yz};
+  }
 
   /// Take away u v^T, which is symmetric because v is a multiple of u.
   void subtract_parallel(const Vector3d& u, const Vector3d& v) {

@@ -1,6 +1,8 @@
 // See tree.h. Tested by tests/runtime/bsm_test.cpp.
 #include "runtime/bsm/tree.h"
 
+#include <utility>
+
 namespace twincraft::bsm {
 namespace {
 
@@ -10,6 +12,7 @@ void prepare_joint(const Joint& joint, LinkConstants& link) {
   link.axis_P = joint.dcm_PL0 * joint.axis_L;
   link.stiffness = joint.stiffness;
   link.damping = joint.damping;
+  link.damped_by_cosine_of = joint.damped_by_cosine_of;
   link.rest = joint.rest;
   if (joint.kind == JointKind::kSlide) {
     link.turn_fixed = joint.dcm_PL0;
@@ -22,15 +25,40 @@ void prepare_joint(const Joint& joint, LinkConstants& link) {
   link.turn_sin = joint.dcm_PL0 * tilde(joint.axis_L);
 }
 
-void prepare_mass(const Link& link, const Matrix3d& rotor_inertia, LinkConstants& constants) {
-  Matrix3d J = -rotor_inertia;
-  constants.first_moment.setZero();
-  for (const MassElement& element : link.elements) {
-    constants.mass += element.mass;
-    constants.first_moment += element.mass * element.r_EL_L;
-    J += parallel_axis(element.I_PntE_L, element.mass, element.r_EL_L);
+void add(const MassElement& element, MassSums& sums) {
+  sums.mass += element.mass;
+  sums.first_moment += element.mass * element.r_EL_L;
+  sums.J_L += Sym3::from(parallel_axis(element.I_PntE_L, element.mass, element.r_EL_L));
+}
+
+void put(const MassSums& sums, LinkConstants& link) {
+  link.mass = sums.mass;
+  link.first_moment = sums.first_moment;
+  link.J_L = sums.J_L;
+}
+
+/// The sums of one tank's elements on a link, begun when first asked for.
+MassSums& part_of(std::size_t tank, Draining& draining) {
+  for (Draining::Part& part : draining.parts) {
+    if (part.tank == tank) return part.full;
   }
-  constants.J_L = Sym3::from(J);
+  return draining.parts.emplace_back(Draining::Part{tank, {}}).full;
+}
+
+void prepare_mass(const Link& link, std::size_t index, const Matrix3d& rotor_inertia, Tree& tree) {
+  Draining draining;
+  draining.link = index;
+  draining.fixed.J_L = Sym3::from(-rotor_inertia);
+  for (const MassElement& element : link.elements) {
+    add(element, element.tank < 0 ? draining.fixed
+                                  : part_of(static_cast<std::size_t>(element.tank), draining));
+  }
+  MassSums full = draining.fixed;
+  for (const Draining::Part& part : draining.parts) full.add(1.0, part.full);
+  put(full, tree.links[index]);
+  if (draining.parts.empty()) return;
+  tree.links[index].drains = true;
+  tree.draining.push_back(std::move(draining));
 }
 
 /// Axial inertia of all rotors on a link, as a tensor in its axes.
@@ -47,16 +75,27 @@ Matrix3d rotor_inertia_on(int link, const std::vector<Rotor>& rotors) {
 Tree prepare(const Assembly& assembly) {
   Tree tree;
   for (const Link& link : assembly.links) {
-    const auto index = static_cast<int>(tree.links.size());
+    const std::size_t index = tree.links.size();
     LinkConstants& constants = tree.links.emplace_back();
     constants.parent = link.parent;
     prepare_joint(link.joint, constants);
-    prepare_mass(link, rotor_inertia_on(index, assembly.rotors), constants);
+    if (link.parent >= 0) ++tree.links[static_cast<std::size_t>(link.parent)].children;
+    prepare_mass(link, index, rotor_inertia_on(static_cast<int>(index), assembly.rotors), tree);
   }
   for (const Rotor& rotor : assembly.rotors) {
     tree.rotors.push_back({rotor.link, rotor.axis_L, rotor.spin_inertia});
   }
   return tree;
+}
+
+void set_shares(Tree& tree, std::span<const double> shares) {
+  for (const Draining& draining : tree.draining) {
+    MassSums sums = draining.fixed;
+    for (const Draining::Part& part : draining.parts) {
+      sums.add(shares[part.tank], part.full);
+    }
+    put(sums, tree.links[draining.link]);
+  }
 }
 
 }  // namespace twincraft::bsm

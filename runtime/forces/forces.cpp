@@ -37,7 +37,8 @@ ForceModel::ForceModel(const Model& model, GravityLaw law,
   for (std::size_t link = 0; link < elements.size(); ++link) {
     for (const MassElement& element : elements[link]) {
       if (element.mass <= 0.0) continue;
-      elements_.push_back({static_cast<int>(link), element.mass, element.r_EL_L, element.I_PntE_L});
+      elements_.push_back({static_cast<int>(link), element.mass, element.r_EL_L, element.I_PntE_L,
+                           element.tank, element.mass, element.I_PntE_L});
       mass_ += element.mass;
     }
   }
@@ -59,6 +60,18 @@ void ForceModel::hold(double time) {
     if (!pushes && torque_L.isZero(0.0)) continue;
     acting_loads_.push_back({load.link, pushes, !load.r_FL_L.has_value(), force_L, torque_L,
                              load.r_FL_L.value_or(Vector3d::Zero())});
+  }
+}
+
+void ForceModel::set_shares(std::span<const double> shares) {
+  mass_ = 0.0;
+  for (Element& e : elements_) {
+    if (e.tank >= 0) {
+      const double share = shares[static_cast<std::size_t>(e.tank)];
+      e.mass = share * e.full_mass;
+      e.I_PntE_L = share * e.full_I;
+    }
+    mass_ += e.mass;
   }
 }
 
@@ -135,6 +148,26 @@ double ForceModel::potential(const Vector3d& r_BN_W, std::span<const LinkPose> l
   for (const Element& e : elements_) {
     const LinkPose& pose = links[static_cast<std::size_t>(e.link)];
     sum -= mu_ * e.mass / (r_BN_W + pose.r_LB_W + pose.dcm_WL * e.r_EL_L).norm();
+  }
+  return sum;
+}
+
+// The derivative of potential() at fixed places: U = -sum mu m/|r|, or -mu M/|r_C| with r_C the
+// mean of the places weighted by mass.
+double ForceModel::potential_rate(const Vector3d& r_BN_W, std::span<const LinkPose> links,
+                                  std::span<const double> share_rates) const {
+  if (law_ == GravityLaw::kNone) return 0.0;
+  const Vector3d r_CN_W = r_BN_W + center_of_mass(links);
+  double sum = 0.0;
+  for (const Element& e : elements_) {
+    if (e.tank < 0) continue;
+    const double mass_rate = e.full_mass * share_rates[static_cast<std::size_t>(e.tank)];
+    const LinkPose& pose = links[static_cast<std::size_t>(e.link)];
+    const Vector3d r_EN_W = r_BN_W + pose.r_LB_W + pose.dcm_WL * e.r_EL_L;
+    sum +=
+        is_per_body(law_)
+            ? -mu_ * mass_rate / r_EN_W.norm()
+            : -mass_rate * (mu_ / r_CN_W.norm() + point_gravity(mu_, r_CN_W).dot(r_EN_W - r_CN_W));
   }
   return sum;
 }

@@ -42,6 +42,9 @@ class ForceModel {
   /// Hold the loads at their values of `time` [s].
   void hold(double time);
 
+  /// Let elements of tanks have these parts of their mass and inertia; one share per tank.
+  void set_shares(std::span<const double> shares);
+
   /// No link feels anything now: apply() leaves the wrenches as they are. Gravity may still make
   /// the vehicle fall as a whole.
   bool is_idle() const { return !gravity_acts_ && acting_loads_.empty(); }
@@ -57,6 +60,10 @@ class ForceModel {
   /// Of gravity [J]: -sum mu m/r; of the total mass at C for kSystemCom.
   double potential(const Vector3d& r_BN_W, std::span<const LinkPose> links) const;
 
+  /// How fast potential() changes because elements of tanks lose mass [W].
+  double potential_rate(const Vector3d& r_BN_W, std::span<const LinkPose> links,
+                        std::span<const double> share_rates) const;
+
   /// Of what has no potential [W]: loads and gravity-gradient torques.
   double power(const Vector3d& r_BN_W, std::span<const LinkPose> links,
                std::span<const LinkRate> rates) const;
@@ -67,6 +74,9 @@ class ForceModel {
     double mass;
     Vector3d r_EL_L;
     Matrix3d I_PntE_L;
+    int tank;          // -1: none
+    double full_mass;  // [kg] and
+    Matrix3d full_I;   // [kg m^2] at share 1
   };
   struct HeldLoad {
     int link;

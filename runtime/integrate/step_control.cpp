@@ -68,7 +68,7 @@ StepControl::StepControl(const StateLayout& layout, const BlockTolerances& toler
   ranges_ = {range(Block::kPosition, layout.position(), 3, tolerance.position),
              range(Block::kVelocity, layout.velocity(), 3, tolerance.velocity),
              range(Block::kAttitude, layout.attitude(), layout.attitude_size(), tolerance.attitude),
-             range(Block::kRate, layout.rate(), 3, tolerance.rate),
+             range(Block::kRate, layout.rate(), layout.rate_size(), tolerance.rate),
              range(Block::kJoint, layout.joint(), layout.joints, tolerance.joint),
              range(Block::kJointRate, layout.joint_rate(), layout.joints, tolerance.joint_rate),
              range(Block::kWheel, layout.wheel(), layout.wheels, tolerance.wheel)};
@@ -76,6 +76,7 @@ StepControl::StepControl(const StateLayout& layout, const BlockTolerances& toler
 
 double StepControl::ratio(const Range& range, std::span<const double> state,
                           std::span<const double> error) const {
+  if (range.size == 0) return 0.0;
   const Entries y = entries(state.subspan(range.begin, range.size));
   const Entries e = entries(error.subspan(range.begin, range.size));
   const bool is_attitude = range.block == Block::kAttitude;

@@ -21,8 +21,12 @@
 
 #include "compiler/ir/number.h"
 #include "runtime/forces/forces.h"
+#include "runtime/forces/propellant_ledger.h"
+#include "runtime/mujoco/draining.h"
 #include "runtime/mujoco/handles.h"
 #include "runtime/mujoco/motion_sums.h"
+#include "runtime/mujoco/passive_joints.h"
+#include "runtime/mujoco/point_mass_engine.h"
 #include "runtime/mujoco/tree_map.h"
 #include "runtime/mujoco/wrenches.h"
 
@@ -93,7 +97,9 @@ class MujocoEngine final : public Engine {
 
  private:
   void hand_over(const double* state, Placement placement);
-  void apply_springs_and_dampers();
+  void drain(double time);
+  void add_leaving(const Vector3d& r_BN_N, const Vector3d& v_BN_N, const MotionSums& sums,
+                   ExternalRates& rates) const;
   double take_back(const double* state, const Vector3d& a_BN_N, double* rate) const;
   [[noreturn]] void fail(double time, std::span<const double> state, std::span<const double> rate);
   std::string coordinate_name(int index) const;
@@ -101,13 +107,7 @@ class MujocoEngine final : public Engine {
   void gather_poses();
   void gather_rates(const Vector3d& v_BN_N);
   Vector3d project_forces(const Vector3d& r_BN_W);
-  double spring_energy() const;
   double joint_power() const;
-
-  struct Passive {  // of one joint, as MuJoCo loaded it
-    int qpos, dof;
-    double stiffness, damping, rest;
-  };
 
   Assembly assembly_;
   InitialState initial_;
@@ -117,7 +117,9 @@ class MujocoEngine final : public Engine {
   MujocoModel model_;
   MujocoData data_;
   TreeMap map_;
-  std::vector<Passive> passive_;
+  PassiveJoints passive_;
+  PropellantLedger propellant_;
+  DrainingBodies draining_;
   WrenchProjector projector_;
   ForceModel forces_;
   std::vector<double> inputs_;   // held efforts and motor torques, per MuJoCo dof
@@ -136,6 +138,9 @@ MujocoEngine::MujocoEngine(const Model& model, const std::string& mjcf)
       model_(load(model, mjcf)),
       data_(make_data(*model_)),
       map_(map_tree(model, *model_)),
+      passive_(assembly_, map_, *model_),
+      propellant_(model.tanks),
+      draining_(model, *model_),
       projector_(*model_, map_),
       forces_(model, law_, gravity_elements(model), field_frame(model.engines.frame)),
       inputs_(static_cast<std::size_t>(model_->nv)),
@@ -143,11 +148,6 @@ MujocoEngine::MujocoEngine(const Model& model, const std::string& mjcf)
       poses_(model.assembly.links.size()),
       wrenches_(poses_.size()),
       link_rates_(poses_.size()) {
-  for (std::size_t i = 0; i < map_.joint_dof.size(); ++i) {
-    const int dof = map_.joint_dof[i], qpos = map_.joint_qpos[i];
-    passive_.push_back({qpos, dof, model_->jnt_stiffness[model_->dof_jntid[dof]],
-                        model_->dof_damping[dof], model_->qpos_spring[qpos]});
-  }
   hold_inputs(0.0);
 }
 
@@ -171,6 +171,15 @@ void MujocoEngine::hold_inputs(double time) {
     inputs[map_.wheel_dof[i]] = assembly_.rotors[i].torque.at(time);
   }
   forces_.hold(time);
+  propellant_.hold(time);
+  drain(time);
+}
+
+void MujocoEngine::drain(double time) {
+  if (propellant_.is_idle()) return;
+  const std::span<const double> shares = propellant_.shares(time);
+  draining_.set_shares(shares, *model_);
+  forces_.set_shares(shares);
 }
 
 void MujocoEngine::derivative(double time, std::span<const double> state, std::span<double> rate) {
@@ -179,6 +188,7 @@ void MujocoEngine::derivative(double time, std::span<const double> state, std::s
   const Matrix3d dcm_NW = placement_ == Placement::kAligned
                               ? dcm_of(state.data() + StateLayout::attitude())
                               : Matrix3d::Identity();
+  drain(time);
   hand_over(state.data(), placement_);
   mj_kinematics(m, d);
   mj_comPos(m, d);
@@ -192,22 +202,12 @@ void MujocoEngine::derivative(double time, std::span<const double> state, std::s
   mj_factorM(m, d);
   mj_comVel(m, d);
   mj_rne(m, d, 0, d->qfrc_bias);
-  apply_springs_and_dampers();
+  passive_.apply(*d);
   for (int i = 0; i < m->nv; ++i) d->qacc[i] = d->qfrc_passive[i] - d->qfrc_bias[i] + applied[i];
   mj_solveM(m, d, d->qacc, d->qacc, 1);
   const double sum = take_back(state.data(), dcm_NW * (Input(d->qacc) + fall_W), rate.data());
   // A singular mass matrix only warns, and MuJoCo goes on with a made-up pivot.
   if (!std::isfinite(sum) || d->warning[mjWARN_INERTIA].number > 0) fail(time, state, rate);
-}
-
-// What mj_passive does for these models, without its search for tendons and fluids: on a rigid body
-// that costs a tenth of the whole evaluation.
-void MujocoEngine::apply_springs_and_dampers() {
-  for (const Passive& joint : passive_) {
-    const double stretch = data_->qpos[joint.qpos] - joint.rest;
-    data_->qfrc_passive[joint.dof] =
-        -joint.stiffness * stretch - joint.damping * data_->qvel[joint.dof];
-  }
 }
 
 // MuJoCo normalises the quaternion in place, which is not idempotent in the last bit, so everything
@@ -320,6 +320,7 @@ MotionSums MujocoEngine::move_to(std::span<const double> state) {
 }
 
 Observation MujocoEngine::observe(double time, std::span<const double> state) {
+  drain(time);
   const MotionSums sums = move_to(state);
   const double* x = state.data();
   const double* q = x + StateLayout::attitude();
@@ -338,7 +339,7 @@ Observation MujocoEngine::observe(double time, std::span<const double> state) {
   seen.wheel_rate = entries(layout_.wheel(), layout_.size());
   seen.mass = sums.mass;
   seen.kinetic = sums.kinetic;
-  seen.potential = spring_energy() + forces_.potential(seen.r_BN_N, poses_);
+  seen.potential = passive_.spring_energy(*data_) + forces_.potential(seen.r_BN_N, poses_);
   seen.momentum = sums.momentum;
   seen.H_PntC_N = sums.H_PntC_N;
   seen.momentum_scale = sums.momentum_scale;
@@ -346,7 +347,8 @@ Observation MujocoEngine::observe(double time, std::span<const double> state) {
   return seen;
 }
 
-ExternalRates MujocoEngine::external_rates(double, std::span<const double> state) {
+ExternalRates MujocoEngine::external_rates(double time, std::span<const double> state) {
+  drain(time);
   const MotionSums sums = move_to(state);
   const Vector3d r_BN_N = Input(state.data() + StateLayout::position());
   const Vector3d v_BN_N = Input(state.data() + StateLayout::velocity());
@@ -361,7 +363,19 @@ ExternalRates MujocoEngine::external_rates(double, std::span<const double> state
   }
   rates.torque_PntC_N -= sums.r_CB_N.cross(rates.force_N);
   rates.force_N += sums.mass * fall;  // acts at C
+  if (!propellant_.is_idle()) add_leaving(r_BN_N, v_BN_N, sums, rates);
   return rates;
+}
+
+// Propellant takes its own energy and momentum along.
+void MujocoEngine::add_leaving(const Vector3d& r_BN_N, const Vector3d& v_BN_N,
+                               const MotionSums& sums, ExternalRates& rates) const {
+  const std::span<const double> share_rates = propellant_.share_rates();
+  const LeavingSums left = draining_.leaving(*model_, *data_, v_BN_N, sums, share_rates);
+  rates.force_N += left.momentum;
+  rates.torque_PntC_N += left.H_PntC_N;
+  rates.power += left.kinetic;
+  rates.power += forces_.potential_rate(r_BN_N, poses_, share_rates);
 }
 
 void MujocoEngine::gather_rates(const Vector3d& v_BN_N) {
@@ -372,21 +386,11 @@ void MujocoEngine::gather_rates(const Vector3d& v_BN_N) {
   }
 }
 
-double MujocoEngine::spring_energy() const {
-  double energy = 0.0;
-  for (const Passive& joint : passive_) {
-    const double stretch = data_->qpos[joint.qpos] - joint.rest;
-    energy += 0.5 * joint.stiffness * stretch * stretch;
-  }
-  return energy;
-}
-
-// Motors and efforts, less what the dampers take.
+// Motors and efforts, less what the dampers take; a wheel's bearing has no friction.
 double MujocoEngine::joint_power() const {
-  double power = 0.0;
+  double power = -passive_.damper_power(*data_);
   for (int i = kHubDofs; i < model_->nv; ++i) {
-    const double speed = data_->qvel[i];
-    power += (inputs_[static_cast<std::size_t>(i)] - model_->dof_damping[i] * speed) * speed;
+    power += inputs_[static_cast<std::size_t>(i)] * data_->qvel[i];
   }
   return power;
 }
@@ -405,6 +409,7 @@ Eigen::MatrixXd MujocoEngine::mass_matrix(std::span<const double> state) {
 }  // namespace
 
 std::unique_ptr<Engine> make_mujoco_engine(const Model& model, const std::string& mjcf) {
+  if (model.simulation.translation) return make_mujoco_point_mass_engine(model, mjcf);
   return std::make_unique<MujocoEngine>(model, mjcf);
 }
 

@@ -67,4 +67,17 @@ MotionSums sum_motion(const mjModel& model, const mjData& data, const Vector3d& 
   return sums;
 }
 
+// The motion of C drops out of the rate of H: neither the sum of m (r - r_C) nor that of m (v -
+// v_C) is anything.
+LeavingSums leaving(const mjModel& model, const mjData& data, const Vector3d& v_BN_N,
+                    const MotionSums& sums, const Loss& loss) {
+  const double mass_rate = loss.relative_rate * model.body_mass[loss.body];
+  const Vector3d omega = Point(data.cvel + 6 * loss.body);
+  const Vector3d v_iN_N = v_BN_N + center_velocity(data, loss.body);
+  const Vector3d r_iC_N = Point(data.xipos + 3 * loss.body) - sums.r_CB_N;
+  const Vector3d spin = loss.relative_rate * spin_momentum(model, data, loss.body, omega);
+  return {0.5 * (mass_rate * v_iN_N.squaredNorm() + omega.dot(spin)), mass_rate * v_iN_N,
+          mass_rate * r_iC_N.cross(v_iN_N - sums.v_CN_N) + spin};
+}
+
 }  // namespace twincraft

@@ -24,6 +24,23 @@ struct MotionSums {
 /// @param v_BN_N  the hub origin's true velocity [m/s]
 MotionSums sum_motion(const mjModel& model, const mjData& data, const Vector3d& v_BN_N);
 
+/// What leaves the books because bodies lose mass: their rates at fixed motion.
+struct LeavingSums {
+  double kinetic = 0.0;                  // [W] in N
+  Vector3d momentum = Vector3d::Zero();  // [N] in N
+  Vector3d H_PntC_N = Vector3d::Zero();  // [N m]
+};
+
+/// A body that loses mass, and inertia in proportion.
+struct Loss {
+  int body = 0;
+  double relative_rate = 0.0;  // [1/s] d(mass)/dt / mass
+};
+
+/// What one body adds. @param sums  of this instant
+LeavingSums leaving(const mjModel& model, const mjData& data, const Vector3d& v_BN_N,
+                    const MotionSums& sums, const Loss& loss);
+
 /// The spatial velocity of a body, taken at the hub origin, in world axes.
 struct Twist {
   Vector3d omega;  // [rad/s]

@@ -17,29 +17,6 @@ int find(const mjModel& loaded, mjtObj type, const std::string& name) {
   return id;
 }
 
-// Where a body of the tree sits on the link that carries it.
-struct Seat {
-  int link = 0;
-  Matrix3d dcm_LS = Matrix3d::Identity();  // body to link components
-  Vector3d r_SL_L = Vector3d::Zero();      // [m]
-};
-
-Seat seat_of(const TreeBody& body, const std::vector<Seat>& seats) {
-  if (body.parent < 0) return Seat{};
-  if (body.link >= 0 && !body.joints.empty()) return Seat{.link = body.link};
-  const Seat& mount = seats[static_cast<std::size_t>(body.parent)];
-  return Seat{.link = mount.link,
-              .dcm_LS = mount.dcm_LS * body.quat.toRotationMatrix(),
-              .r_SL_L = mount.r_SL_L + mount.dcm_LS * body.pos};
-}
-
-MassElement seated(const MassElement& element, const Seat& seat) {
-  return MassElement{.name = element.name,
-                     .mass = element.mass,
-                     .r_EL_L = seat.r_SL_L + seat.dcm_LS * element.r_EL_L,
-                     .I_PntE_L = seat.dcm_LS * element.I_PntE_L * seat.dcm_LS.transpose()};
-}
-
 }  // namespace
 
 TreeMap map_tree(const Model& model, const mjModel& loaded) {
@@ -61,11 +38,10 @@ TreeMap map_tree(const Model& model, const mjModel& loaded) {
 
 std::vector<std::vector<MassElement>> gravity_elements(const Model& model) {
   std::vector<std::vector<MassElement>> elements(model.assembly.links.size());
-  std::vector<Seat> seats;
-  for (const TreeBody& body : model.tree.bodies) {
-    seats.push_back(seat_of(body, seats));
-    const Seat& seat = seats.back();
-    for (const MassElement& element : body.elements) {
+  const std::vector<Seat> seats = seats_of(model.tree);
+  for (std::size_t i = 0; i < seats.size(); ++i) {
+    const Seat& seat = seats[i];
+    for (const MassElement& element : model.tree.bodies[i].elements) {
       elements[static_cast<std::size_t>(seat.link)].push_back(seated(element, seat));
     }
   }
@@ -75,6 +51,7 @@ std::vector<std::vector<MassElement>> gravity_elements(const Model& model) {
 void restore_exact_masses(const BodyTree& tree, mjModel& loaded) {
   bool changed = false;
   for (const TreeBody& body : tree.bodies) {
+    changed = changed || body.tank >= 0;  // it will
     const int id = find(loaded, mjOBJ_BODY, body.name);
     Eigen::Map<Vector3d> inertia(loaded.body_inertia + 3 * id);
     // An eigenvalue of a rod can come out a rounding below zero.

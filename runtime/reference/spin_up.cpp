@@ -66,6 +66,7 @@ Quaterniond SpinUp::turn(double time) const {
 }
 
 std::optional<std::string> spin_up_inapplicable(const Model& model, GravityLaw law) {
+  if (model.simulation.translation) return "a point mass does not turn";
   if (model.assembly.links.size() > 1) return "the vehicle has joints";
   if (!model.assembly.rotors.empty()) return "the vehicle has wheels";
   if (law == GravityLaw::kBodyGradient) return "gravity turns the vehicle (`body_gradient`)";

@@ -37,11 +37,11 @@ Json provenance_json(const Provenance& provenance) {
 }
 
 /// A setting's value as JSON when it reads as such (`0.02`), else as the text it is (`10 s`).
-Json settings_json(const ReportedMember& member) {
+Json settings_json(const std::vector<Setting>& all) {
   Json settings = Json::object();
-  for (const auto& [path, text] : member.settings) {
-    Json value = Json::parse(text, nullptr, false);
-    settings[path] = value.is_discarded() ? Json(text) : std::move(value);
+  for (const Setting& setting : all) {
+    Json value = Json::parse(setting.text, nullptr, false);
+    settings[setting.path] = value.is_discarded() ? Json(setting.text) : std::move(value);
   }
   return settings;
 }
@@ -140,13 +140,78 @@ Json timing_json(const Timing& timing) {
 
 Json member_json(const ReportedMember& member) {
   const Member& result = member.result;
-  Json json{{"settings", settings_json(member)}, {"resolved", resolved_json(member.bundle)}};
+  Json json{{"settings", settings_json(member.settings)},
+            {"resolved", resolved_json(member.bundle)}};
   for (const EngineRun& run : result.engines)
     json["engines"][run.name] = engine_json(member.bundle.model, run);
   json["agreement"] = result.comparison ? agreement_json(*result.comparison) : Json::object();
   if (result.comparison) json["same_sample_times"] = result.comparison->same_times;
   json["references"] = references_json(result.references);
   if (result.timing) json["timing"] = timing_json(*result.timing);
+  return json;
+}
+
+/// NaN, where no logarithm exists, becomes null.
+Json trend_json(const Trend& trend, const char* x, const char* y, const char* exponents) {
+  Json json = Json::object();
+  if (!trend.metric.empty()) json["metric"] = trend.metric;
+  if (!trend.reference.empty()) json["reference"] = trend.reference;
+  if (!trend.engine.empty()) json["engine"] = trend.engine;
+  json["set"] = trend.path;
+  if (!trend.others.empty()) json["settings"] = settings_json(trend.others);
+  json[x] = trend.x;
+  json[y] = trend.y;
+  json[exponents] = trend.exponents;
+  return json;
+}
+
+Json trends_json(const std::vector<Trend>& trends, const char* x, const char* y,
+                 const char* exponents) {
+  Json json = Json::array();
+  for (const Trend& trend : trends) json.push_back(trend_json(trend, x, y, exponents));
+  return json;
+}
+
+Json work_point_json(const WorkPoint& point, const Report& report) {
+  const std::vector<Setting>& settings = report.members[point.member].settings;
+  Json json{{"member", point.member},
+            {"settings", settings_json(settings)},
+            {"diverged", point.diverged}};
+  if (point.diverged) return json;
+  json["attitude_deg"] = point.error.attitude;
+  json["position_m"] = point.error.position;
+  json["evaluations"] = point.evaluations;
+  if (point.median) json["median_s"] = *point.median;
+  json["frontier"] = point.on_frontier;
+  return json;
+}
+
+Json work_precision_json(const std::vector<EngineWork>& engines, const Report& report) {
+  Json json = Json::object();
+  for (const EngineWork& work : engines) {
+    Json& engine = json[work.engine];
+    engine["floor"] = {{"attitude_deg", work.floor.attitude}, {"position_m", work.floor.position}};
+    engine["configurations"] = Json::array();
+    for (const WorkPoint& point : work.points)
+      engine["configurations"].push_back(work_point_json(point, report));
+  }
+  if (engines.size() != 2) return json;
+  const Faster faster = compare_cost(engines[0], engines[1]);
+  if (faster.of > 0) json["bsm_faster"] = {{"in", faster.first}, {"of", faster.of}};
+  return json;
+}
+
+Json studies_json(const Report& report) {
+  Json json = Json::object();
+  if (!report.study) return json;
+  const StudyResults results = study_results(report);
+  if (report.study->is_work_precision) {
+    json["work_precision"] = work_precision_json(results.work_precision, report);
+    return json;
+  }
+  json["convergence"] = trends_json(results.convergence, "steps_s", "errors", "orders");
+  json["scaling"] = trends_json(results.scaling, "degrees_of_freedom", "us_per_step", "exponents");
+  json["slopes"] = trends_json(results.slopes, "values", "maxima", "slopes");
   return json;
 }
 
@@ -159,7 +224,7 @@ std::string report_json(const Report& report) {
             {"spec", spec_json(report.members.front().bundle)},
             {"provenance", provenance_json(report.provenance)},
             {"members", Json::array()},
-            {"studies", Json::object()}};
+            {"studies", studies_json(report)}};
   for (const ReportedMember& member : report.members)
     json["members"].push_back(member_json(member));
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

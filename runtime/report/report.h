@@ -2,30 +2,48 @@
 // (json, csv, table) return text; the program writes it.
 #pragma once
 
+#include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "compiler/ir/bundle.h"
 #include "runtime/report/provenance.h"
 #include "runtime/study/run.h"
+#include "runtime/study/trends.h"
+#include "runtime/study/work_precision.h"
 
 namespace twincraft {
 
 /// One member of a study and what made it.
 struct ReportedMember {
   Bundle bundle;
-  std::vector<std::pair<std::string, std::string>> settings;  // spec path, value as written
+  std::vector<Setting> settings;
   Member result;
+
+  /// Let go of what only the member's own files need: all samples but the last, and the texts.
+  void shed();
 };
 
 struct Report {
   Provenance provenance;
-  std::vector<ReportedMember> members;  // at least one
+  std::vector<ReportedMember> members;  // at least one; of a study those that were begun
+  std::optional<StudyPlan> study = {};  // nothing: a single run
 
   bool complete() const;
   /// kDisagree if any member disagrees; kAgree only if every member agrees.
   Verdict verdict() const;
 };
+
+/// The members as a study looks at them; valid as long as `members` is not changed.
+std::vector<StudyPoint> study_points(const std::vector<ReportedMember>& members);
+
+/// What the members show together.
+struct StudyResults {
+  std::vector<Trend> convergence, scaling, slopes;
+  std::vector<EngineWork> work_precision;
+};
+
+/// Nothing of a single run; nothing of work against precision unless all its members were run.
+StudyResults study_results(const Report& report);
 
 }  // namespace twincraft

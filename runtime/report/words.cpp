@@ -73,7 +73,8 @@ MetricWords words_of(std::string_view key, const Model& model) {
 }
 
 std::string vehicle_words(const Model& model) {
-  std::string text = fmt::format("{} DOF: hub", model.degrees_of_freedom());
+  std::string text = fmt::format("{} DOF: {}", model.degrees_of_freedom(),
+                                 model.simulation.translation ? "point mass" : "hub");
   const auto add = [&](std::string_view one, std::string_view many,
                        std::initializer_list<Kind> kinds) {
     const std::size_t count = count_components(model, kinds);

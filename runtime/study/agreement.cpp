@@ -70,11 +70,14 @@ Difference distance(Vector3d Observation::*point) {
       [point](const Observation& a, const Observation& b) { return (a.*point - b.*point).norm(); };
 }
 
-void add_hub_laws(const Agreement& tolerance, std::vector<MetricLaw>& laws) {
+void add_attitude_laws(const Agreement& tolerance, std::vector<MetricLaw>& laws) {
   laws.push_back(
       {"attitude_deg", kDegrees, tolerance.attitude,
        [](const Observation& a, const Observation& b) { return principal_angle(a.q_BN, b.q_BN); }});
   laws.push_back({"rate_rad_s", 1.0, tolerance.rate, distance(&Observation::omega_BN_B)});
+}
+
+void add_translation_laws(const Agreement& tolerance, std::vector<MetricLaw>& laws) {
   // The position tolerance speaks of the system's centre of mass; B's own position has none.
   laws.push_back({"position_m", 1.0, std::nullopt, distance(&Observation::r_BN_N)});
   laws.push_back({"velocity_m_s", 1.0, tolerance.velocity, distance(&Observation::v_BN_N)});
@@ -100,7 +103,8 @@ void add_coordinate_laws(const Model& model, std::vector<MetricLaw>& laws) {
 
 std::vector<MetricLaw> laws_of(const Model& model) {
   std::vector<MetricLaw> laws;
-  add_hub_laws(model.agreement, laws);
+  if (!model.simulation.translation) add_attitude_laws(model.agreement, laws);
+  add_translation_laws(model.agreement, laws);
   add_coordinate_laws(model, laws);
   laws.push_back(
       {"mass_kg", 1.0, model.agreement.mass,

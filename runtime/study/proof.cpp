@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "runtime/bsm/engine.h"
 #include "runtime/mujoco/engine.h"
@@ -40,10 +41,7 @@ Answer ask(Engine& engine, const RandomState& state) {
   const std::span<const double> view(y.data(), static_cast<std::size_t>(y.size()));
   engine.hold_inputs(state.time);
   engine.derivative(state.time, view, {rate.data(), view.size()});
-  Answer answer{engine.mass_matrix(view), VectorXd(6 + layout.joints + layout.wheels)};
-  answer.acceleration << rate.segment<3>(StateLayout::velocity()), rate.segment<3>(layout.rate()),
-      rate.segment(layout.joint_rate(), layout.joints), rate.segment(layout.wheel(), layout.wheels);
-  return answer;
+  return {engine.mass_matrix(view), accelerations_of(rate, layout)};
 }
 
 /// NaN is worse than any number.
@@ -62,8 +60,9 @@ double gyration(const MatrixXd& M) { return std::sqrt(M.block<3, 3>(3, 3).trace(
 void compare_mass_properties(const Answer& a, const Answer& b, ProofReport& report) {
   const MatrixXd difference = a.mass_matrix - b.mass_matrix;
   const double mass = a.mass_matrix(0, 0);
-  const double arm = gyration(a.mass_matrix);
   report.lines.push_back({"mass", std::abs(difference(0, 0)) / mass, {}});
+  if (difference.rows() == 3) return;  // a point mass
+  const double arm = gyration(a.mass_matrix);
   report.lines.push_back(
       {"centre of mass", difference.block<3, 3>(0, 3).cwiseAbs().maxCoeff() / (mass * arm), {}});
   report.lines.push_back(
@@ -90,9 +89,7 @@ double mapping_difference(Engine& engine, const RandomState& state) {
 }
 
 bool same_coordinates(const Model& model, Engine& a, Engine& b, ProofReport& report) {
-  const auto freedom = [](const Engine& engine) {
-    return 6 + engine.layout().joints + engine.layout().wheels;
-  };
+  const auto freedom = [](const Engine& engine) { return engine.layout().degrees_of_freedom(); };
   const bool same = freedom(a) == model.degrees_of_freedom() && freedom(b) == freedom(a) &&
                     a.layout().joints == b.layout().joints;
   report.lines.push_back(
@@ -100,7 +97,13 @@ bool same_coordinates(const Model& model, Engine& a, Engine& b, ProofReport& rep
   return same;
 }
 
-std::vector<AccelerationBlock> blocks_of(const Model& model, double arm) {
+std::vector<AccelerationBlock> blocks_of(const Model& model, const MatrixXd& M) {
+  if (model.simulation.translation) {
+    // Nothing turns, so nothing cancels, and any acceleration is worth comparing with.
+    constexpr double kAny = std::numeric_limits<double>::min();
+    return {{"acceleration", {"x", "y", "z"}, {0, 1, 2}, kAny}};
+  }
+  const double arm = gyration(M);
   // Rates drawn are about 0.1 rad/s, so this is what turning alone makes of any coordinate.
   constexpr double kCentrifugal = 0.01;  // [rad/s^2]
   AccelerationBlock linear{
@@ -160,6 +163,11 @@ std::vector<std::string> deliberate_mismatches(const Model& model) {
   if (!model.engines.compensate && !model.assembly.rotors.empty())
     remarks.push_back(
         "`engines.mujoco.compensate: false` leaves the token wheel masses on top of the tree");
+  if (std::ranges::any_of(model.tree.bodies,
+                          [](const TreeBody& body) { return body.token_inertia > 0.0; }))
+    remarks.push_back(
+        "`engines.mujoco.bob_inertia` or `particle_inertia` gives the tree inertias that the "
+        "assembly does not have");
   if (model.gravity.bsm != model.gravity.mujoco)
     remarks.push_back("the spec gives the two engines different gravity laws");
   return remarks;
@@ -190,7 +198,7 @@ ProofReport prove(const Model& model, Engine& a, Engine& b) {
   const Answer start_a = ask(a, start);
   compare_mass_properties(start_a, ask(b, start), report);
   report.lines.push_back(compare_mass_matrices(of_a, of_b));
-  for (const AccelerationBlock& block : blocks_of(model, gyration(start_a.mass_matrix)))
+  for (const AccelerationBlock& block : blocks_of(model, start_a.mass_matrix))
     report.lines.push_back(compare_block(block, of_a, of_b));
   return report;
 }

@@ -74,11 +74,9 @@ std::vector<std::string> state_names(const Model& model, const StateLayout& layo
   };
   add("r_BN_N", "xyz");
   add("v_BN_N", "xyz");
-  if (layout.chart == AttitudeChart::kMrp)
-    add("sigma_BN", "123");
-  else
-    add("q_BN", "wxyz");
-  add("omega_BN_B", "xyz");
+  if (layout.attitude_size() == 3) add("sigma_BN", "123");
+  if (layout.attitude_size() == 4) add("q_BN", "wxyz");
+  if (layout.rate_size() > 0) add("omega_BN_B", "xyz");
   for (const char* quantity : {"position", "rate"}) {
     for (int link = 1; link <= layout.joints; ++link)
       names.push_back(coordinate_name(model, false, link) + "." + quantity);

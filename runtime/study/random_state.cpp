@@ -36,6 +36,10 @@ class Draw {
 RandomState draw_state(const Model& model, Draw& draw) {
   RandomState state = undisturbed(model);
   state.time = draw.unit() * model.simulation.duration;
+  if (model.simulation.translation) {
+    state.r_BN_N += 0.1 * state.r_BN_N.norm() * draw.vector();
+    return state;
+  }
   state.q_BN = draw.attitude();
   state.omega_BN_B = 0.1 * draw.vector();  // [rad/s]
   for (std::size_t i = 0; i < state.joint_position.size(); ++i) {
@@ -73,11 +77,9 @@ Eigen::VectorXd state_vector(const RandomState& state, const StateLayout& layout
   y.segment<3>(StateLayout::position()) = state.r_BN_N;
   y.segment<3>(StateLayout::velocity()) = state.v_BN_N;
   const Quaterniond& q = state.q_BN;
-  if (layout.chart == AttitudeChart::kMrp)
-    y.segment<3>(StateLayout::attitude()) = q.vec() / (1.0 + q.w());
-  else
-    y.segment<4>(StateLayout::attitude()) << q.w(), q.vec();
-  y.segment<3>(layout.rate()) = state.omega_BN_B;
+  if (layout.attitude_size() == 3) y.segment<3>(StateLayout::attitude()) = q.vec() / (1.0 + q.w());
+  if (layout.attitude_size() == 4) y.segment<4>(StateLayout::attitude()) << q.w(), q.vec();
+  if (layout.rate_size() > 0) y.segment<3>(layout.rate()) = state.omega_BN_B;
   for (std::size_t i = 0; i < state.joint_position.size(); ++i) {
     y[layout.joint() + static_cast<int>(i)] = state.joint_position[i];
     y[layout.joint_rate() + static_cast<int>(i)] = state.joint_rate[i];
@@ -85,6 +87,14 @@ Eigen::VectorXd state_vector(const RandomState& state, const StateLayout& layout
   for (std::size_t i = 0; i < state.wheel_rate.size(); ++i)
     y[layout.wheel() + static_cast<int>(i)] = state.wheel_rate[i];
   return y;
+}
+
+Eigen::VectorXd accelerations_of(const Eigen::VectorXd& rate, const StateLayout& layout) {
+  Eigen::VectorXd accelerations(layout.degrees_of_freedom());
+  accelerations << rate.segment<3>(StateLayout::velocity()),
+      rate.segment(layout.rate(), layout.rate_size()),
+      rate.segment(layout.joint_rate(), layout.joints), rate.segment(layout.wheel(), layout.wheels);
+  return accelerations;
 }
 
 }  // namespace twincraft

@@ -19,7 +19,8 @@ struct RandomState {
 };
 
 /// Random attitudes, rates about 0.1 rad/s, hinges about 0.5 rad and slides about 0.05 m off their
-/// start, wheels to 100 rad/s, times anywhere in the run; position and velocity as at the start.
+/// start, wheels to 100 rad/s, times anywhere in the run; position and velocity as at the start. A
+/// point mass, which has nothing else, is moved by up to a tenth of its distance.
 std::vector<RandomState> random_states(const Model& model, int count);
 
 /// The start of the run itself, turned so that B and N agree.
@@ -27,5 +28,8 @@ RandomState undisturbed(const Model& model);
 
 /// `state` as the entries of a state vector.
 Eigen::VectorXd state_vector(const RandomState& state, const StateLayout& layout);
+
+/// Of a state's derivative, what belongs to (v_B in N, omega in B, joint rates, wheel rates).
+Eigen::VectorXd accelerations_of(const Eigen::VectorXd& rate, const StateLayout& layout);
 
 }  // namespace twincraft

@@ -122,6 +122,19 @@ std::string reference_refusal(const Model& model, const RunOptions& options) {
   return {};
 }
 
+Member refused_member(const std::string& reason) {
+  Member member;
+  for (const char* engine : {"bsm", "mujoco"}) {
+    EngineRun run;
+    run.name = engine;
+    run.status = Status::kSkipped;
+    run.reason = reason;
+    member.engines.push_back(std::move(run));
+  }
+  member.refused = true;
+  return member;
+}
+
 Member run_member(const Bundle& bundle, const RunOptions& options) {
   Member member;
   for (const char* engine : {"bsm", "mujoco"})

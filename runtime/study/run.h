@@ -49,6 +49,7 @@ struct Member {
   std::vector<ReferenceRun> references;
   std::optional<Timing> timing;  // when asked for and the runs succeeded
   bool complete = false;         // everything asked for was computed to its end
+  bool refused = false;          // nothing was run: the engines say why
 
   Verdict verdict() const { return comparison ? comparison->verdict : Verdict::kNotJudged; }
   bool failed() const;  // an engine failed numerically
@@ -56,6 +57,9 @@ struct Member {
 
 /// Why the vehicle can not be held against a reference that the spec names; empty when it can.
 std::string reference_refusal(const Model& model, const RunOptions& options);
+
+/// A member that cannot be run, for a reason other than numbers: both engines skip it.
+Member refused_member(const std::string& reason);
 
 /// Numerical failures are part of the result. @pre reference_refusal() has no objection
 Member run_member(const Bundle& bundle, const RunOptions& options);

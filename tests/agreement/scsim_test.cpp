@@ -72,6 +72,26 @@ TEST_F(Scsim, FindsTheQuickstartInAgreement) {
   }
 }
 
+TEST_F(Scsim, FliesAPointMassThreeCentimetresOffKepler) {
+  const ProgramResult result =
+      run({TWINCRAFT_ROOT "/models/paper/orbit.yaml", "-o", folder.path() + "/out", "--no-timing"});
+  EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+  EXPECT_THAT(result.out, HasSubstr("3 DOF: point mass"));
+  EXPECT_EQ(report()["spec"]["degrees_of_freedom"], 3);
+  EXPECT_FALSE(member()["agreement"].contains("attitude_deg"));
+  EXPECT_FALSE(member()["agreement"].contains("rate_rad_s"));
+  for (const char* engine : {"bsm", "mujoco"}) {
+    const json run = member()["engines"][engine];
+    EXPECT_EQ(run["final"]["q_BN"], (json{1.0, 0.0, 0.0, 0.0}));
+    // The paper's: 3.04681e-2 m at 10 s, over two periods.
+    EXPECT_NEAR(member()["references"]["kepler"][engine]["position_m"]["max"], 3.04681e-2, 1e-6);
+    // What came in from outside is booked, so this is rounding and the step.
+    EXPECT_LT(run["conservation"]["energy_relative"], 6.0e-11);
+    EXPECT_EQ(run["conservation"]["angular_momentum_relative"], 0.0);
+  }
+  EXPECT_THAT(folder.read("out/bsm.csv"), HasSubstr(",1,0,0,0,0,0,0,"));
+}
+
 TEST_F(Scsim, WritesOneCsvPerEngineWithASampleEveryRecord) {
   ASSERT_EQ(run_spinner({"--no-timing"}).exit_code, 0);
   for (const char* file : {"out/bsm.csv", "out/mujoco.csv"}) {

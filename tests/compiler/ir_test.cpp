@@ -6,6 +6,7 @@
 
 #include "compiler/ir/mass.h"
 #include "compiler/ir/number.h"
+#include "compiler/ir/propellant.h"
 #include "compiler/ir/schedule.h"
 
 namespace twincraft {
@@ -81,6 +82,25 @@ TEST(Schedule, OpensAndClosesWithItsIntervals) {
   EXPECT_EQ(s.at(6.0), 0.0);
   EXPECT_EQ(event_times({&s}, 100.0), (std::vector<double>{1.0, 3.0, 5.0, 6.0}));
   EXPECT_EQ(event_times({&s}, 4.0), (std::vector<double>{1.0, 3.0}));
+}
+
+TEST(Schedule, AddsAtEveryTimeOfEither) {
+  const Schedule a{{{1.0, 10.0}, {3.0, 0.0}}}, b = Schedule::constant(2.0);
+  const Schedule sum = a + b.scaled(2.0);
+  for (const double t : {0.0, 1.0, 2.0, 3.0, 4.0}) EXPECT_EQ(sum.at(t), a.at(t) + 4.0) << t;
+  EXPECT_EQ(event_times({&sum}, 100.0), (std::vector<double>{1.0, 3.0}));
+}
+
+TEST(Tank, RunsDownByTheIntegralOfItsFlow) {
+  const Tank tank{"main", 100.0, {{{1.0, 10.0}, {3.0, 0.0}, {5.0, 2.0}}}};
+  const std::pair<double, double> expected[] = {{-1.0, 100.0}, {0.5, 100.0}, {2.0, 90.0},
+                                                {3.0, 80.0},   {4.0, 80.0},  {6.0, 78.0}};
+  for (const auto& [time, content] : expected) {
+    EXPECT_EQ(tank.content_at(time), content) << time;
+    EXPECT_EQ(tank.share(time), content / 100.0) << time;
+  }
+  const Tank always{"main", 100.0, Schedule::constant(10.0)};
+  EXPECT_EQ(always.content_at(2.0), 80.0);
 }
 
 TEST(Number, IsTheShortestTextThatReadsBackEqual) {

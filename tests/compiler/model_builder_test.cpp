@@ -9,6 +9,7 @@ namespace twincraft {
 namespace {
 
 using test::boom_and_wheels;
+using test::bracket_on_boom;
 using test::chain;
 
 const TreeBody& body(const Model& model, const std::string& name) {
@@ -81,6 +82,55 @@ TEST(ModelBuilder, GivesAWheelWithMassItsOwnElementInBothHalves) {
   EXPECT_EQ(wheel.elements.at(0).r_EL_L, Vector3d::Zero());
   EXPECT_EQ(body(model, "boom").inertial.mass, 50.0);
   EXPECT_EQ(model.assembly.rotors[1].link, 1);
+}
+
+TEST(ModelBuilder, PutsWhatAFixedBodyCarriesOnItsLink) {
+  const Model model = bracket_on_boom().build();
+  const Link& boom = model.assembly.links.at(1);
+  ASSERT_EQ(boom.elements.size(), 3u);
+  EXPECT_EQ(boom.elements[1].name, "bracket");
+  EXPECT_EQ(boom.elements[2].name, "rw_heavy");
+  const TreeBody& bracket = body(model, "bracket");
+  EXPECT_TRUE(bracket.joints.empty());
+  EXPECT_EQ(bracket.link, 1);
+  const Matrix3d turn = bracket.quat.toRotationMatrix();
+  EXPECT_LT((boom.elements[1].r_EL_L - (bracket.pos + turn * Vector3d(0.1, 0.2, 0.0))).norm(),
+            1e-15);
+  EXPECT_LT(
+      (model.assembly.rotors[0].axis_L - turn * body(model, "rw_light").joints[0].axis).norm(),
+      1e-15);
+  EXPECT_EQ(model.assembly.links.at(2).parent, 1);  // the finger
+}
+
+TEST(ModelBuilder, CarriesAMasslessWheelOfAFixedBodyOnThatBodysElement) {
+  const Model model = bracket_on_boom().build();
+  const std::vector<MassElement>& on_boom = model.assembly.links.at(1).elements;
+  const double wheel = 0.08 * 2.2;  // trace: Js + 2 Jt
+  EXPECT_EQ(on_boom.at(0).I_PntE_L.trace(), 44.0);
+  EXPECT_NEAR(on_boom.at(1).I_PntE_L.trace(), 1.2 + wheel, 1e-14);
+  EXPECT_NEAR(body(model, "bracket").elements.at(0).I_PntE_L.trace(), 1.2 + wheel, 1e-14);
+  EXPECT_NEAR(body(model, "bracket").inertial.mass, 6.0 - 1e-6, 1e-15);
+}
+
+TEST(ModelBuilder, TurnsALoadOnAFixedBodyIntoTheAxesOfItsLink) {
+  ModelBuilder builder = bracket_on_boom();
+  Load load;
+  load.force_L[0].entries = {{1.0, 2.0}, {3.0, 0.0}};
+  load.force_L[1] = Schedule::constant(0.5);
+  load.r_FL_L = Vector3d(0.1, 0.0, 0.0);
+  builder.add_load(builder.find_mount("bracket"), load);
+  const Model model = std::move(builder).build();
+  const TreeBody& bracket = body(model, "bracket");
+  const Matrix3d turn = bracket.quat.toRotationMatrix();
+  const Load& turned = model.loads.at(0);
+  EXPECT_EQ(turned.link, 1);
+  for (const double time : {0.0, 2.0, 4.0}) {
+    const Vector3d force(turned.force_L[0].at(time), turned.force_L[1].at(time),
+                         turned.force_L[2].at(time));
+    const Vector3d written(time == 2.0 ? 2.0 : 0.0, 0.5, 0.0);
+    EXPECT_LT((force - turn * written).norm(), 1e-15) << time;
+  }
+  EXPECT_LT((*turned.r_FL_L - bracket.pos - turn * Vector3d(0.1, 0.0, 0.0)).norm(), 1e-15);
 }
 
 TEST(ModelBuilder, KeepsInitialValuesAtTheirCoordinates) {

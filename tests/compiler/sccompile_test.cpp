@@ -17,6 +17,7 @@ namespace fs = std::filesystem;
 using test::Outcome;
 using test::run_sccompile;
 using testing::HasSubstr;
+using testing::Not;
 using testing::StartsWith;
 
 constexpr const char* kQuickstart = "models/quickstart.yaml";
@@ -68,6 +69,24 @@ TEST_F(Sccompile, WritesOnlyWhatWasAskedFor) {
   EXPECT_THAT(read(folder_ / "wheels_and_panels.resolved.yaml"),
               StartsWith("format: spacecraft/1\n"));
   EXPECT_EQ(files(), 2u);
+}
+
+TEST_F(Sccompile, ExtendsAFileButNotFromStandardInput) {
+  std::ofstream(folder_ / "base.yaml") << read(TWINCRAFT_ROOT "/models/quickstart.yaml");
+  const std::string text = "extends: base.yaml\nname: small\ndrop: [wing_m, wing_p]\n";
+  const Outcome run = run_sccompile(spec(text) + out() + "--emit resolved 2>&1");
+  EXPECT_EQ(run.exit_code, 0) << run.output;
+  EXPECT_THAT(read(folder_ / "small.resolved.yaml"), HasSubstr("rw_z"));
+  EXPECT_THAT(read(folder_ / "small.resolved.yaml"), Not(HasSubstr("wing")));
+  EXPECT_THAT(read(folder_ / "small.resolved.yaml"), Not(HasSubstr("extends")));
+  const Outcome piped = run_sccompile("- 2>&1 < " + spec(text));
+  EXPECT_EQ(piped.exit_code, 1);
+  EXPECT_THAT(piped.output, HasSubstr("<stdin>:1:10: error[SC1604]"));
+}
+
+TEST_F(Sccompile, TellsAMissingSpecFromAMissingExtendedOne) {
+  EXPECT_EQ(run_sccompile("missing.yaml 2>/dev/null").exit_code, 3);
+  EXPECT_EQ(run_sccompile(spec("extends: missing.yaml\n") + " 2>/dev/null").exit_code, 1);
 }
 
 TEST_F(Sccompile, WritesOneResultToStandardOutput) {

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "compiler/schema/partial.h"
 #include "compiler/schema/reference.h"
 #include "tests/compiler/schema_reading.h"
 
@@ -279,6 +280,19 @@ TEST(Reference, HasASectionPerTableAndARowPerKey) {
   EXPECT_THAT(reference, HasSubstr("\n| `paint` | `red` or `blue` | `blue` | red \\| blue |\n"));
   EXPECT_THAT(reference, HasSubstr("\nExactly one of `angle` and `turns` is written.\n"));
   EXPECT_THAT(reference, HasSubstr("\nAt most one of `fast` and `slow` is written.\n"));
+}
+
+TEST(Partial, DemandsNothingOfASpecThatExtendsAnother) {
+  const Json schema = whole_unless_extending(cart_table().schema());
+  EXPECT_EQ(schema["if"], Json::parse(R"({"required": ["extends"]})"));
+  EXPECT_FALSE(schema.contains("required"));
+  EXPECT_FALSE(schema["properties"]["axle"].contains("required"));
+  EXPECT_EQ(schema["properties"]["axle"]["type"], Json::parse(R"(["object", "null"])"));
+  EXPECT_EQ(schema["additionalProperties"], false);
+  const Json whole = schema["else"];
+  EXPECT_EQ(whole["required"], cart_table().schema()["required"]);
+  EXPECT_EQ(whole["properties"]["axle"]["type"], "object");
+  EXPECT_FALSE(whole["properties"]["axle"].contains("description"));
 }
 
 }  // namespace

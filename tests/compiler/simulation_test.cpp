@@ -52,8 +52,9 @@ TEST(StepRule, TakesTheShortestPeriodOfSeveralSprings) {
 
 TEST(StepRule, NeedsAPanelWithASpring) {
   const Trial unknown(run("step: {per_period: 200, of: wign}, duration: 8 s", flexible(1)));
-  EXPECT_THAT(unknown.faults(),
-              ElementsAre("6:42 SC3003 `wign` is no panel (did you mean `wing`?)"));
+  EXPECT_THAT(
+      unknown.faults(),
+      ElementsAre("6:42 SC3003 `wign` is no panel, particle or pendulum (did you mean `wing`?)"));
   const Trial loose(run(kRule, flexible(1, "0")));
   EXPECT_THAT(loose.codes(), ElementsAre(Code::kNoPeriod));
 }

@@ -61,6 +61,33 @@ inline ModelBuilder boom_and_wheels(EngineControls controls = {}) {
   return builder;
 }
 
+/// Hub with a boom, on it a fixed bracket that carries two wheels (one massless) and a finger, and
+/// beside the bracket a twig: a branch on either side of a weld.
+inline ModelBuilder bracket_on_boom(EngineControls controls = {}) {
+  ModelBuilder builder(controls);
+  builder.add_hub();
+  builder.add_mass({}, lump("hub", 600.0, {0.1, -0.2, 0.05}, {400.0, 380.0, 360.0}));
+  const Mount boom = builder.add_link({}, "boom", hinge({0.8, 0.1, 0.0}, {0.0, -1.0, 0.2}));
+  builder.add_mass(boom, lump("boom", 50.0, {1.2, 0.0, 0.0}, {3.0, 20.0, 21.0}));
+  const Matrix3d turn =
+      Eigen::AngleAxisd(0.7, Vector3d(2.0, -1.0, 1.0).normalized()).toRotationMatrix();
+  const Mount bracket = builder.add_fixed_body(boom, "bracket", {2.0, 0.1, -0.2}, turn);
+  builder.add_mass(bracket, lump("bracket", 6.0, {0.1, 0.2, 0.0}, {0.3, 0.4, 0.5}));
+  const Mount finger = builder.add_link(bracket, "finger", hinge({0.3, 0.0, 0.1}, {1.0, 0.0, 1.0}));
+  builder.add_mass(finger, lump("finger", 2.0, {0.2, 0.0, 0.0}, {0.02, 0.05, 0.06}));
+  const Mount twig = builder.add_link(boom, "twig", hinge({1.0, 0.0, 0.0}, {0.0, 0.0, 1.0}));
+  builder.add_mass(twig, lump("twig", 3.0, {0.0, 0.3, 0.0}, {0.1, 0.02, 0.1}));
+  builder.add_coordinate(Coordinate::Kind::kBodyAngle, "boom", boom.link, 0.1, 0.0);
+  builder.add_coordinate(Coordinate::Kind::kBodyAngle, "finger", finger.link, 0.2, 0.0);
+  builder.add_coordinate(Coordinate::Kind::kBodyAngle, "twig", twig.link, 0.3, 0.0);
+  for (const double mass : {0.0, 4.0}) {
+    const Rotor wheel = rotor(mass > 0.0 ? "rw_heavy" : "rw_light", {1.0, 1.0, 0.5}, 0.08);
+    const int index = builder.add_wheel(bracket, wheel, wheel_element(wheel, mass, {0.3, 0, 0.1}));
+    builder.add_coordinate(Coordinate::Kind::kWheel, wheel.name, index, 0.0, 100.0);
+  }
+  return builder;
+}
+
 /// A chain of hinged links, nothing else.
 inline ModelBuilder chain(int links) {
   ModelBuilder builder{EngineControls{}};

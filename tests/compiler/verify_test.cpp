@@ -13,6 +13,7 @@ namespace twincraft {
 namespace {
 
 using test::boom_and_wheels;
+using test::bracket_on_boom;
 using test::chain;
 using testing::Contains;
 using testing::HasSubstr;
@@ -20,6 +21,18 @@ using testing::IsEmpty;
 
 TEST(Verify, AcceptsWheelsHingesAndSlides) {
   EXPECT_THAT(verify(boom_and_wheels().build()), IsEmpty());
+}
+
+TEST(Verify, AcceptsFixedBodiesAndBranches) {
+  EXPECT_THAT(verify(bracket_on_boom().build()), IsEmpty());
+}
+
+TEST(Verify, AcceptsTokenMassesOnFixedBodies) {
+  EngineControls controls;
+  controls.wheel_mass = 2.0;
+  EXPECT_THAT(verify(bracket_on_boom(controls).build()), IsEmpty());
+  controls.compensate = false;
+  EXPECT_THAT(verify(bracket_on_boom(controls).build()), IsEmpty());
 }
 
 TEST(Verify, AcceptsALongChain) { EXPECT_THAT(verify(chain(200).build()), IsEmpty()); }
@@ -49,6 +62,28 @@ TEST(Verify, AcceptsLargeTokensThatWereTakenOut) {
   EngineControls controls;
   controls.wheel_mass = 5.0;
   EXPECT_THAT(verify(boom_and_wheels(controls).build()), IsEmpty());
+}
+
+/// One change to the fixed body of a sound model: bodies 0 to 4 are hub, boom, bracket, finger,
+/// twig.
+TEST(Verify, FindsAFixedBodyThatIsNotThere) {
+  const auto said = [](auto damage) {
+    Model model = bracket_on_boom().build();
+    EXPECT_EQ(model.tree.bodies.at(2).name, "bracket");
+    damage(model.tree.bodies.at(2));
+    return verify(model);
+  };
+  EXPECT_THAT(said([](TreeBody&) {}), IsEmpty());
+  EXPECT_THAT(said([](TreeBody& bracket) { bracket.pos.y() += 1e-9; }),
+              Contains(HasSubstr("mass matrices differ")));
+  EXPECT_THAT(said([](TreeBody& bracket) {
+                bracket.quat = bracket.quat * Eigen::AngleAxisd(1e-9, Vector3d::UnitX());
+              }),
+              Contains(HasSubstr("mass matrices differ")));
+  EXPECT_THAT(said([](TreeBody& bracket) { bracket.inertial.mass *= 1.0 + 1e-9; }),
+              Contains(HasSubstr("mass matrices differ")));
+  EXPECT_THAT(said([](TreeBody& bracket) { bracket.elements.clear(); }),
+              Contains(HasSubstr("gravity pulls on other masses at `boom`")));
 }
 
 /// One change to the tree of a sound model, and what verify must then say.

@@ -9,7 +9,9 @@
 #include "compiler/diag/print.h"
 #include "compiler/pipeline.h"
 #include "runtime/bsm/engine.h"
+#include "runtime/bsm/recursion.h"
 #include "runtime/mujoco/engine.h"
+#include "runtime/study/agreement.h"
 #include "runtime/study/conservation.h"
 #include "runtime/study/propagate.h"
 #include "runtime/study/random_state.h"
@@ -17,14 +19,16 @@
 namespace twincraft {
 namespace {
 
-Bundle compiled(const std::string& vehicle, const std::vector<std::string>& overrides = {}) {
+Bundle compiled_file(const std::string& file, const std::vector<std::string>& overrides = {}) {
   Sources sources;
   Diagnostics diagnostics;
-  const std::string file =
-      std::string(TWINCRAFT_ROOT) + "/tests/components/vehicles/" + vehicle + ".yaml";
-  CompileResult result = compile({file, overrides}, sources, diagnostics);
+  CompileResult result = compile({TWINCRAFT_ROOT "/" + file, overrides}, sources, diagnostics);
   EXPECT_EQ(diagnostics.error_count(), 0u) << to_text(diagnostics, {});
   return result.bundle.value();
+}
+
+Bundle compiled(const std::string& vehicle, const std::vector<std::string>& overrides = {}) {
+  return compiled_file("tests/components/vehicles/" + vehicle + ".yaml", overrides);
 }
 
 std::span<const double> span_of(const Eigen::VectorXd& v) {
@@ -139,12 +143,55 @@ TEST_P(Truncation, LeavesTheBooksToFourthOrder) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Components, Battery,
-                         testing::Values("hub", "wheel", "panel", "chain", "damped", "gravity"),
+                         testing::Values("hub", "wheel", "panel", "chain", "damped", "gravity",
+                                         "arm", "arm_in_orbit", "particle", "pendulum", "bob",
+                                         "burn"),
                          [](const auto& param_info) { return param_info.param; });
 
 INSTANTIATE_TEST_SUITE_P(Components, Truncation,
-                         testing::Values("panel", "chain", "damped", "gravity"),
+                         testing::Values("panel", "chain", "damped", "gravity", "arm", "pendulum",
+                                         "bob"),
                          [](const auto& param_info) { return param_info.param; });
+
+/// The paper's flexible arrays of four segments, as panels and as bodies.
+class SameMachine : public testing::Test {
+ protected:
+  Bundle panels_ =
+      compiled_file("models/paper/flex_panels.yaml",
+                    {"panels.*.segments=4", "simulation.step=0.002", "simulation.record=0.1"});
+  Bundle bodies_ = compiled("flex_as_bodies");
+};
+
+TEST_F(SameMachine, WrittenAsBodiesHasTheAccelerationsOfThePanels) {
+  const auto a = make_bsm_engine(panels_.model), b = make_bsm_engine(bodies_.model);
+  const auto c = make_mujoco_engine(bodies_.model, bodies_.mjcf);
+  for (const RandomState& state : random_states(panels_.model, 50)) {
+    const Eigen::VectorXd of_panels = accelerations(*a, state);
+    // The same numbers by the same products: only rounding of the written decimals is left.
+    EXPECT_LT((accelerations(*b, state) - of_panels).norm(), 1e-14 * of_panels.norm());
+    EXPECT_LT((accelerations(*c, state) - of_panels).norm(), 1e-11 * of_panels.norm());
+  }
+}
+
+TEST_F(SameMachine, WrittenAsBodiesTakesThePlanarPathInAnyOrder) {
+  EXPECT_EQ(bsm::Recursion(bodies_.model.assembly).planar_links(), 8u);
+}
+
+TEST_F(SameMachine, WrittenAsBodiesFliesAsThePanelsDo) {
+  constexpr double kPublished = 6e-13;  // [deg] between the engines on the paper's arrays
+  const auto attitude = [](const Comparison& comparison) {
+    return comparison.metrics.at(0).maximum;
+  };
+  const auto a = make_bsm_engine(panels_.model), b = make_bsm_engine(bodies_.model);
+  const auto c = make_mujoco_engine(bodies_.model, bodies_.mjcf);
+  const Trajectory of_panels = propagate(*a, panels_.model);
+  const Trajectory of_bodies = propagate(*b, bodies_.model);
+  const Comparison written = compare(bodies_.model, of_panels, of_bodies);
+  ASSERT_EQ(written.metrics.at(0).key, "attitude_deg");
+  EXPECT_TRUE(written.same_times);
+  EXPECT_LT(attitude(written), kPublished);
+  EXPECT_LT(attitude(compare(bodies_.model, of_bodies, propagate(*c, bodies_.model))), kPublished);
+}
 
 /// Limits: a component that vanishes must leave the vehicle without it.
 TEST(Limits, APanelOfVanishingMassLeavesTheHubAlone) {

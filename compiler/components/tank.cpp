@@ -1,0 +1,124 @@
+// See tank.h. Tested by tests/compiler/propellant_test.cpp.
+#include "compiler/components/tank.h"
+
+#include <fmt/format.h>
+
+#include <numbers>
+
+#include "compiler/components/physical.h"
+#include "compiler/ir/number.h"
+
+namespace twincraft {
+namespace {
+
+const Table<SphereSpec>& sphere_table() {
+  static const Table<SphereSpec> table{
+      "sphere",
+      "A spherical tank.",
+      {
+          required("radius", &SphereSpec::radius, quantity("m", Range::kPositive), "Inside."),
+      }};
+  return table;
+}
+
+const Table<CylinderSpec>& cylinder_table() {
+  static const Table<CylinderSpec> table{
+      "cylinder",
+      "A cylindrical tank with flat ends.",
+      {
+          required("radius", &CylinderSpec::radius, quantity("m", Range::kPositive), "Inside."),
+          required("length", &CylinderSpec::length, quantity("m", Range::kPositive), "Inside."),
+          required("axis", &CylinderSpec::axis, direction(), "Of symmetry, in the mount's axes."),
+      }};
+  return table;
+}
+
+const Table<TankShapeSpec>& shape_table() {
+  static const Table<TankShapeSpec> table = Table<TankShapeSpec>{
+      "tank shape",
+      "The solid whose inertia the bulk of the propellant has.",
+      {
+          optional("sphere", &TankShapeSpec::sphere, maybe(object(sphere_table())),
+                   "2/5 m R^2 about every axis."),
+          optional("cylinder", &TankShapeSpec::cylinder, maybe(object(cylinder_table())),
+                   "m R^2 / 2 along its axis, m (3 R^2 + L^2) / 12 across."),
+      }}.exactly_one_of({"sphere", "cylinder"});
+  return table;
+}
+
+}  // namespace
+
+const Table<TankSpec>& tank_table() {
+  static const Table<TankSpec> table{
+      "tank",
+      "A propellant tank: a fixed bulk, and the slosh masses that name it.",
+      {
+          required("name", &TankSpec::name, name(), "Unique in the file."),
+          optional("mount", &TankSpec::mount, reference_to("body"), "What carries the tank."),
+          optional("position", &TankSpec::position, vector3("m"), "Of its centre."),
+          required("shape", &TankSpec::shape, object(shape_table()), "Sphere or cylinder."),
+          required("propellant", &TankSpec::propellant, quantity("kg", Range::kPositive),
+                   "Everything in it at t = 0, slosh included; the rest is the bulk."),
+          optional("density", &TankSpec::density, maybe(quantity("kg/m3", Range::kPositive)),
+                   "Of the propellant. With it, more than the tank holds is refused."),
+      }};
+  return table;
+}
+
+double volume(const TankShapeSpec& shape) {
+  if (shape.sphere) {
+    const double R = shape.sphere->radius;
+    return 4.0 / 3.0 * std::numbers::pi * R * R * R;
+  }
+  const CylinderSpec& cylinder = shape.cylinder.value();
+  return std::numbers::pi * cylinder.radius * cylinder.radius * cylinder.length;
+}
+
+Matrix3d solid_inertia(const TankShapeSpec& shape, double mass) {
+  if (shape.sphere) {
+    const double R = shape.sphere->radius;
+    return 0.4 * mass * R * R * Matrix3d::Identity();
+  }
+  const CylinderSpec& cylinder = shape.cylinder.value();
+  const double R2 = cylinder.radius * cylinder.radius;
+  const double along = 0.5 * mass * R2;
+  const double across = mass * (3.0 * R2 + cylinder.length * cylinder.length) / 12.0;
+  return across * Matrix3d::Identity() +
+         (along - across) * cylinder.axis * cylinder.axis.transpose();
+}
+
+std::string mount_with(const TankSpec* tank, const std::optional<std::string>& mount) {
+  return mount.value_or(tank != nullptr ? tank->mount : "hub");
+}
+
+Vector3d position_with(const TankSpec* tank, const std::optional<Vector3d>& position) {
+  return position.value_or(tank != nullptr ? tank->position : Vector3d::Zero());
+}
+
+void check(const TankSpec& tank, const Names& names, Diagnostics& diagnostics) {
+  const std::string who = fmt::format("tank `{}`", tank.name);
+  check_mount(tank.mount, tank.span_of("mount"), who, names, diagnostics);
+  check_mass(tank.propellant, tank.span_of("propellant"), who, diagnostics);
+  if (!tank.density) return;
+  const double most = *tank.density * volume(tank.shape);
+  if (tank.propellant <= most) return;
+  diagnostics
+      .error(Code::kTankOverfilled, tank.span_of("propellant"),
+             fmt::format("{} kg of propellant do not fit into {}, which holds {:.6g} kg",
+                         shortest(tank.propellant), who, most))
+      .with_note(tank.span_of("shape"), fmt::format("{:.6g} m3", volume(tank.shape)))
+      .with_note(tank.span_of("density"), fmt::format("{} kg/m3", shortest(*tank.density)));
+}
+
+void lower(const TankSpec& spec, double slosh, const Schedule& mass_flow, ModelBuilder& builder) {
+  const int tank = builder.add_tank({spec.name, spec.propellant, mass_flow});
+  const double bulk = spec.propellant - slosh;
+  if (!(bulk > kMujocoMinimum)) return;  // all of it sloshes
+  // A body of its own, so that nothing else of the mount changes when it drains.
+  const Mount mount = builder.add_fixed_body(builder.find_mount(spec.mount), spec.name,
+                                             spec.position, Matrix3d::Identity());
+  builder.add_mass(mount,
+                   {spec.name, bulk, Vector3d::Zero(), solid_inertia(spec.shape, bulk), tank});
+}
+
+}  // namespace twincraft

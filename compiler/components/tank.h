@@ -1,0 +1,57 @@
+// A propellant tank. What is in it is the bulk, a solid of the tank's shape about its centre, and
+// the slosh masses that name the tank. Thrusters that draw from it shrink all of them in fixed
+// proportion; the shape of the bulk stays. Tested by tests/compiler/propellant_test.cpp.
+#pragma once
+
+#include <optional>
+
+#include "compiler/components/names.h"
+#include "compiler/model_builder.h"
+#include "compiler/schema/table.h"
+
+namespace twincraft {
+
+struct SphereSpec : Written {
+  double radius = 0.0;  // [m]
+};
+
+struct CylinderSpec : Written {
+  double radius = 0.0;                // [m]
+  double length = 0.0;                // [m]
+  Vector3d axis = Vector3d::UnitZ();  // unit, mount axes
+};
+
+/// Exactly one of them.
+struct TankShapeSpec : Written {
+  std::optional<SphereSpec> sphere;
+  std::optional<CylinderSpec> cylinder;
+};
+
+struct TankSpec : Written {
+  std::string name;
+  std::string mount = "hub";
+  Vector3d position = Vector3d::Zero();  // [m] centre, mount axes
+  TankShapeSpec shape;
+  double propellant = 0.0;        // [kg] everything in it, slosh included
+  std::optional<double> density;  // [kg/m^3]
+};
+
+const Table<TankSpec>& tank_table();
+
+double volume(const TankShapeSpec& shape);  // [m^3]
+
+/// Of a solid of this shape and mass [kg] about its centre, mount axes [kg m^2].
+Matrix3d solid_inertia(const TankShapeSpec& shape, double mass);
+
+/// Where slosh is mounted and placed that may leave that to its tank. @param tank null: it has none
+std::string mount_with(const TankSpec* tank, const std::optional<std::string>& mount);
+Vector3d position_with(const TankSpec* tank, const std::optional<Vector3d>& position);  // [m]
+
+/// Mount, and no more propellant than the tank holds.
+void check(const TankSpec& tank, const Names& names, Diagnostics& diagnostics);
+
+/// @param slosh      [kg] of what moves in the tank: not in the bulk
+/// @param mass_flow  [kg/s] of all thrusters that draw from it
+void lower(const TankSpec& tank, double slosh, const Schedule& mass_flow, ModelBuilder& builder);
+
+}  // namespace twincraft

@@ -1,0 +1,84 @@
+// See point_mass.h. Tested by tests/runtime/point_mass_test.cpp.
+#include "runtime/forces/point_mass.h"
+
+#include "runtime/forces/forces.h"
+
+namespace twincraft {
+namespace {
+
+using Input = Eigen::Map<const Vector3d>;
+using Output = Eigen::Map<Vector3d>;
+
+Vector3d center_of_mass(const Model& model) {
+  MassProperties sum;
+  for (const MassElement& element : model.assembly.links.front().elements) {
+    sum = sum + properties_of(element);
+  }
+  return sum.r_CL_L;
+}
+
+Input position(std::span<const double> state) {
+  return Input(state.data() + StateLayout::position());
+}
+Input velocity(std::span<const double> state) {
+  return Input(state.data() + StateLayout::velocity());
+}
+
+}  // namespace
+
+PointMassEngine::PointMassEngine(const Model& model, GravityLaw law)
+    : loads_(model.loads),
+      initial_(model.initial),
+      mu_(law == GravityLaw::kNone ? 0.0 : model.gravity.mu),
+      r_CB_N_(center_of_mass(model)) {
+  PointMassEngine::hold_inputs(0.0);
+}
+
+Eigen::VectorXd PointMassEngine::initial_state() const {
+  Eigen::VectorXd state(layout_.size());
+  state << initial_.r_BN_N, initial_.v_BN_N;
+  return state;
+}
+
+void PointMassEngine::hold_inputs(double time) {
+  force_N_.setZero();
+  for (const Load& load : loads_) {
+    for (int i = 0; i < 3; ++i) force_N_[i] += load.force_L[static_cast<std::size_t>(i)].at(time);
+  }
+}
+
+void PointMassEngine::derivative(double, std::span<const double> state, std::span<double> rate) {
+  Output(rate.data() + StateLayout::position()) = velocity(state);
+  Output(rate.data() + StateLayout::velocity()) = acceleration(position(state), velocity(state));
+}
+
+Vector3d PointMassEngine::gravity(const Vector3d& r_BN_N) const {
+  return mu_ == 0.0 ? Vector3d(Vector3d::Zero()) : point_gravity(mu_, r_BN_N + r_CB_N_);
+}
+
+Observation PointMassEngine::observe(double time, std::span<const double> state) {
+  Observation seen;
+  seen.time = time;
+  seen.r_BN_N = position(state);
+  seen.v_BN_N = velocity(state);
+  seen.q_BN = Quaterniond::Identity();
+  seen.omega_BN_B = Vector3d::Zero();
+  seen.r_CN_N = seen.r_BN_N + r_CB_N_;
+  seen.v_CN_N = seen.v_BN_N;
+  seen.mass = mass();
+  seen.kinetic = 0.5 * seen.mass * seen.v_CN_N.squaredNorm();
+  seen.potential = mu_ == 0.0 ? 0.0 : -mu_ * seen.mass / seen.r_CN_N.norm();
+  seen.momentum = seen.mass * seen.v_CN_N;
+  seen.momentum_scale = seen.momentum.norm();
+  seen.H_PntC_N = Vector3d::Zero();
+  return seen;
+}
+
+ExternalRates PointMassEngine::external_rates(double, std::span<const double> state) {
+  ExternalRates rates;
+  rates.power = force_N_.dot(velocity(state));
+  rates.force_N = force_N_ + mass() * gravity(position(state));
+  return rates;
+}
+
+}  // namespace twincraft

@@ -1,0 +1,40 @@
+// The vehicle as a point mass: everything an engine needs but the law of motion itself, which each
+// engine states in its own way. Its state is position and velocity alone; the hub's axes stay along
+// those of N, so a force fixed in the hub is a force in N. Torques find nothing to turn.
+// Tested by tests/runtime/point_mass_test.cpp.
+#pragma once
+
+#include "runtime/engine.h"
+
+namespace twincraft {
+
+class PointMassEngine : public Engine {
+ public:
+  const StateLayout& layout() const override { return layout_; }
+  Eigen::VectorXd initial_state() const override;
+  void hold_inputs(double time) override;
+  void derivative(double time, std::span<const double> state, std::span<double> rate) override;
+  void finish_step(std::span<double>) override {}
+  Observation observe(double time, std::span<const double> state) override;
+  ExternalRates external_rates(double time, std::span<const double> state) override;
+
+ protected:
+  PointMassEngine(const Model& model, GravityLaw law);
+
+  /// Of the hub origin [m/s^2].
+  virtual Vector3d acceleration(const Vector3d& r_BN_N, const Vector3d& v_BN_N) = 0;
+  virtual double mass() const = 0;  // [kg]
+
+  Vector3d gravity(const Vector3d& r_BN_N) const;            // [m/s^2] where the mass is
+  const Vector3d& held_force_N() const { return force_N_; }  // [N] of all loads
+
+ private:
+  std::vector<Load> loads_;
+  InitialState initial_;
+  double mu_;        // [m^3/s^2] zero without gravity
+  Vector3d r_CB_N_;  // [m] where in the hub the mass is
+  StateLayout layout_{.translation = true};
+  Vector3d force_N_ = Vector3d::Zero();
+};
+
+}  // namespace twincraft

@@ -1,0 +1,79 @@
+// Decides what MuJoCo sees of a point mass. In the co-moving frame the slides are at zero and at
+// rest, the loads are its only forces, and gravity is added to the answer; in the inertial frame
+// they hold the orbital state itself, and gravity is one more force. Only the stages that matter to
+// slides are called. Tested by tests/runtime/point_mass_test.cpp.
+#include "runtime/mujoco/point_mass_engine.h"
+
+#include <algorithm>
+
+#include "runtime/forces/point_mass.h"
+#include "runtime/mujoco/handles.h"
+#include "runtime/mujoco/tree_map.h"
+
+namespace twincraft {
+namespace {
+
+class MujocoPointMass final : public PointMassEngine {
+ public:
+  MujocoPointMass(const Model& model, const std::string& mjcf)
+      : PointMassEngine(model, model.gravity.mujoco),
+        raw_(model.engines.frame == MujocoFrame::kInertial),
+        model_(load_mjcf(mjcf)),
+        data_(make_data(*model_)) {
+    if (model_->nq != 3 || model_->nv != 3) {
+      throw NumericalFailure("mujoco: the MJCF is not that of a point mass");
+    }
+    restore_exact_masses(model.tree, *model_);
+    model_->ngeom = 0;  // pictures are for viewers
+    model_->nsite = 0;
+  }
+
+  std::string_view name() const override { return "mujoco"; }
+
+  Eigen::MatrixXd mass_matrix(std::span<const double>) override {
+    place(Vector3d::Zero(), Vector3d::Zero());
+    mj_crb(model_.get(), data_.get());
+    Matrix3d matrix;
+    mj_fullM(model_.get(), matrix.data(), data_->qM);
+    return matrix;
+  }
+
+ private:
+  Vector3d acceleration(const Vector3d& r_BN_N, const Vector3d& v_BN_N) override {
+    const mjModel* m = model_.get();
+    mjData* d = data_.get();
+    const Vector3d g = gravity(r_BN_N);
+    place(raw_ ? r_BN_N : Vector3d::Zero(), raw_ ? v_BN_N : Vector3d::Zero());
+    mj_crb(m, d);
+    mj_factorM(m, d);
+    mj_comVel(m, d);
+    mj_rne(m, d, 0, d->qfrc_bias);
+    Vector3d force = held_force_N();
+    if (raw_) force += mass() * g;
+    for (int i = 0; i < 3; ++i) d->qacc[i] = force[i] - d->qfrc_bias[i];
+    mj_solveM(m, d, d->qacc, d->qacc, 1);
+    const Vector3d solved = Eigen::Map<const Vector3d>(d->qacc);
+    return raw_ ? solved : Vector3d(solved + g);
+  }
+
+  double mass() const override { return model_->body_mass[kHubBody]; }
+
+  void place(const Vector3d& r, const Vector3d& v) {
+    std::copy_n(r.data(), 3, data_->qpos);
+    std::copy_n(v.data(), 3, data_->qvel);
+    mj_kinematics(model_.get(), data_.get());
+    mj_comPos(model_.get(), data_.get());
+  }
+
+  bool raw_;
+  MujocoModel model_;
+  MujocoData data_;
+};
+
+}  // namespace
+
+std::unique_ptr<Engine> make_mujoco_point_mass_engine(const Model& model, const std::string& mjcf) {
+  return std::make_unique<MujocoPointMass>(model, mjcf);
+}
+
+}  // namespace twincraft

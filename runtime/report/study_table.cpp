@@ -1,0 +1,301 @@
+// See study_table.h: rows of cells, every column as wide as its widest cell.
+// Tested by tests/runtime/sweep_test.cpp.
+#include "runtime/report/study_table.h"
+
+#include <fmt/color.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "runtime/report/words.h"
+
+namespace twincraft {
+namespace {
+
+using Row = std::vector<std::string>;
+
+/// A study of a million members is a file, not a page.
+constexpr std::size_t kShownMembers = 200;
+
+std::string aligned(const std::vector<Row>& rows) {
+  std::vector<std::size_t> widths(rows.front().size(), 0);
+  for (const Row& row : rows)
+    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
+  std::string text;
+  for (const Row& row : rows) {
+    std::string line = " ";
+    for (std::size_t i = 0; i < row.size(); ++i) line += fmt::format(" {:<{}} ", row[i], widths[i]);
+    line.erase(line.find_last_not_of(' ') + 1);
+    text += line + "\n";
+  }
+  return text;
+}
+
+std::string engine_label(std::string_view engine) { return engine == "bsm" ? "BSM" : "MuJoCo"; }
+
+/// `step` of `simulation.step`.
+std::string last_step(const std::string& path) { return path.substr(path.rfind('.') + 1); }
+
+/// The last step of a path, or its last two where another path ends alike.
+std::string column_name(const std::string& path, const std::vector<std::string>& paths) {
+  const auto ends_alike = [&path](const std::string& other) {
+    return other != path && last_step(other) == last_step(path);
+  };
+  const std::size_t dot = path.rfind('.');
+  if (dot == std::string::npos || std::none_of(paths.begin(), paths.end(), ends_alike))
+    return last_step(path);
+  return path.substr(path.rfind('.', dot - 1) + 1);
+}
+
+/// As written; a long vector by its length.
+std::string setting_cell(const Setting& setting) {
+  const bool is_long = setting.text.size() > 24;
+  return is_long && setting.value ? fmt::format("|{:.6g}|", *setting.value) : setting.text;
+}
+
+const Metric* find_metric(const Member& member, std::string_view key) {
+  if (!member.comparison) return nullptr;
+  for (const Metric& metric : member.comparison->metrics)
+    if (metric.key == key) return &metric;
+  return nullptr;
+}
+
+std::string metric_cell(const ReportedMember& member, const Metric* metric) {
+  if (metric == nullptr) return "-";
+  return quantity(metric->maximum, words_of(metric->key, member.bundle.model).unit);
+}
+
+/// How much of its tolerance the metric uses that uses the most.
+std::string worst_cell(const ReportedMember& member) {
+  if (!member.result.comparison) return "-";
+  const Metric* worst = nullptr;
+  double largest = -1.0;
+  for (const Metric& metric : member.result.comparison->metrics) {
+    if (!metric.tolerance) continue;
+    const double part = metric.maximum == 0.0 ? 0.0 : metric.maximum / *metric.tolerance;
+    if (std::isnan(largest) || part <= largest) continue;
+    largest = part;
+    worst = &metric;
+  }
+  if (worst == nullptr) return "-";
+  return fmt::format("{} {:.2g}", words_of(worst->key, member.bundle.model).label, largest);
+}
+
+std::string step_cell(const Member& member, std::string_view engine) {
+  if (!member.timing || !member.timing->complete()) return "-";
+  for (const EngineTiming& timing : member.timing->engines)
+    if (timing.name == engine) return duration(timing.per_step());
+  return "-";
+}
+
+std::string ratio_cell(const Member& member) {
+  const std::optional<double> ratio = member.timing ? member.timing->ratio() : std::nullopt;
+  return ratio ? fmt::format("{:.3g}x", 1.0 / *ratio) : "-";
+}
+
+std::string verdict_cell(const Member& member) {
+  for (const EngineRun& run : member.engines)
+    if (run.status == EngineRun::Status::kFailed) return engine_label(run.name) + " failed";
+  if (member.refused) return "refused";
+  if (!member.complete) return "interrupted";
+  switch (member.verdict()) {
+    case Verdict::kAgree:
+      return "agree";
+    case Verdict::kDisagree:
+      return "DISAGREE";
+    case Verdict::kNotJudged:
+      break;
+  }
+  return "not judged";
+}
+
+std::string reference_cell(const ReportedMember& member, std::string_view engine) {
+  for (const ReferenceRun& run : member.result.references)
+    if (run.engine == engine && !run.deviations.empty()) {
+      const Deviation& deviation = run.deviations.front();
+      return quantity(deviation.max, words_of(deviation.metric, member.bundle.model).unit);
+    }
+  return "-";
+}
+
+/// Some metric of some member has a tolerance.
+bool is_judged(const Report& report) {
+  return std::any_of(report.members.begin(), report.members.end(),
+                     [](const ReportedMember& one) { return worst_cell(one) != "-"; });
+}
+
+/// The columns of a sweep: heading and what each member has in it.
+struct Column {
+  std::string heading;
+  std::function<std::string(const ReportedMember&)> cell;
+};
+
+std::vector<Column> columns_of(const Report& report) {
+  std::vector<Column> columns;
+  for (const std::string& path : report.study->paths)
+    columns.push_back(
+        {column_name(path, report.study->paths), [path](const ReportedMember& member) {
+           const Setting* setting = find_setting(member.settings, path);
+           return setting != nullptr ? setting_cell(*setting) : std::string("-");
+         }});
+  columns.push_back({"attitude", [](const ReportedMember& member) {
+                       return metric_cell(member, find_metric(member.result, "attitude_deg"));
+                     }});
+  columns.push_back({"system CoM", [](const ReportedMember& member) {
+                       return metric_cell(member, find_metric(member.result, "com_position_m"));
+                     }});
+  if (is_judged(report)) columns.push_back({"worst, of tolerance", worst_cell});
+  const std::vector<ReferenceRun>& references = report.members.front().result.references;
+  if (!references.empty())
+    for (const char* engine : {"bsm", "mujoco"})
+      columns.push_back(
+          {engine_label(engine) + " " + references.front().name,
+           [engine](const ReportedMember& member) { return reference_cell(member, engine); }});
+  if (report.members.front().result.timing) {
+    for (const char* engine : {"bsm", "mujoco"})
+      columns.push_back({engine_label(engine) + " step", [engine](const ReportedMember& member) {
+                           return step_cell(member.result, engine);
+                         }});
+    columns.push_back(
+        {"ratio", [](const ReportedMember& member) { return ratio_cell(member.result); }});
+  }
+  columns.push_back(
+      {"verdict", [](const ReportedMember& member) { return verdict_cell(member.result); }});
+  return columns;
+}
+
+std::string sweep_block(const Report& report) {
+  const std::vector<Column> columns = columns_of(report);
+  std::vector<Row> rows(1);
+  for (const Column& column : columns) rows[0].push_back(column.heading);
+  const std::size_t shown = std::min(report.members.size(), kShownMembers);
+  for (std::size_t i = 0; i < shown; ++i) {
+    rows.emplace_back();
+    for (const Column& column : columns) rows.back().push_back(column.cell(report.members[i]));
+  }
+  std::string text = aligned(rows);
+  if (shown < report.members.size())
+    text += fmt::format("  ... and {} more, in report.json\n", report.members.size() - shown);
+  return text;
+}
+
+/// @param among_paths  several paths were swept, so it takes saying which one this is about
+std::string trend_label(const Trend& trend, const Model& model, bool among_paths) {
+  std::string label = engine_label(trend.engine);
+  if (!trend.metric.empty()) {
+    std::string metric = words_of(trend.metric, model).label;
+    // A reference speaks of the system's centre of mass where a metric speaks of the hub.
+    if (!trend.reference.empty() && metric.starts_with("hub ")) metric.erase(0, 4);
+    label = trend.reference.empty()
+                ? metric
+                : fmt::format("{} {}, {}", trend.reference, metric, engine_label(trend.engine));
+  }
+  if (among_paths) label += fmt::format(" over {}", last_step(trend.path));
+  for (const Setting& other : trend.others)
+    label += fmt::format(", {} {}", last_step(other.path), other.text);
+  return label;
+}
+
+std::string trends_block(std::string_view title, const std::vector<Trend>& trends,
+                         const Report& report) {
+  if (trends.empty()) return {};
+  std::vector<Row> rows;
+  std::size_t longest = 0;
+  for (const Trend& trend : trends) longest = std::max(longest, trend.exponents.size());
+  for (const Trend& trend : trends) {
+    rows.push_back(
+        {trend_label(trend, report.members.front().bundle.model, report.study->paths.size() > 1)});
+    for (double exponent : trend.exponents)
+      rows.back().push_back(std::isnan(exponent) ? "-" : fmt::format("{:.2f}", exponent));
+    rows.back().resize(1 + longest);
+  }
+  return fmt::format("\n{}\n{}", title, aligned(rows));
+}
+
+std::string configuration_words(const ReportedMember& member) {
+  std::string words;
+  for (const Setting& setting : member.settings)
+    if (setting.path.starts_with("simulation.")) {
+      if (!words.empty()) words += ", ";
+      const std::string key = last_step(setting.path);
+      words += key == "integrator" ? setting.text : key + " " + setting.text;
+    }
+  return words;
+}
+
+std::string error_cell(const WorkPoint& point) {
+  if (point.diverged) return "diverged";
+  return quantity(point.error.attitude, "deg") + (point.on_frontier ? " *" : "");
+}
+
+std::string cost_cell(const WorkPoint& point) {
+  if (point.diverged) return "-";
+  return point.median ? duration(*point.median) : fmt::format("{} ev.", point.evaluations);
+}
+
+std::string work_precision_block(const Report& report) {
+  const std::vector<EngineWork> engines = study_results(report).work_precision;
+  if (engines.empty()) return "  no reference run ended well: there is nothing to hold against\n";
+  std::vector<Row> rows{{"configuration"}};
+  for (const EngineWork& work : engines)
+    for (const char* what : {"error", "cost"})
+      rows[0].push_back(fmt::format("{} {}", engine_label(work.engine), what));
+  for (std::size_t i = 0; i < engines.front().points.size(); ++i) {
+    rows.push_back({configuration_words(report.members[i])});
+    for (const EngineWork& work : engines) {
+      rows.back().push_back(error_cell(work.points[i]));
+      rows.back().push_back(cost_cell(work.points[i]));
+    }
+  }
+  rows.push_back({"floor"});
+  for (const EngineWork& work : engines) {
+    rows.back().push_back(quantity(work.floor.attitude, "deg"));
+    rows.back().push_back("");
+  }
+  std::string text = aligned(rows) + "\n  * on the engine's own frontier of cost and error\n";
+  if (engines.size() != 2) return text;
+  const Faster faster = compare_cost(engines[0], engines[1]);
+  if (faster.of > 0)
+    text += fmt::format("  BSM is faster in {} of {} configurations\n", faster.first, faster.of);
+  return text;
+}
+
+std::string verdict_line(const Report& report, bool colour) {
+  const auto paint = [colour](std::string_view text, fmt::color shade) {
+    return colour ? fmt::format(fmt::fg(shade), "{}", text) : std::string(text);
+  };
+  if (report.study->is_work_precision) return "not judged; a work-precision study has no verdict";
+  switch (report.verdict()) {
+    case Verdict::kAgree:
+      return paint("the engines agree in every member", fmt::color::green);
+    case Verdict::kDisagree:
+      return paint("the engines disagree", fmt::color::red);
+    case Verdict::kNotJudged:
+      break;
+  }
+  return "not judged in every member";
+}
+
+}  // namespace
+
+std::string study_table(const Report& report, bool colour) {
+  const Model& model = report.members.front().bundle.model;
+  const StudyPlan& plan = *report.study;
+  std::string text =
+      fmt::format("{}   {} of {} members\n\n", model.name, report.members.size(), plan.members);
+  if (plan.is_work_precision) {
+    text += work_precision_block(report);
+  } else {
+    text += sweep_block(report);
+    const StudyResults results = study_results(report);
+    text += trends_block("order in the step", results.convergence, report);
+    text += trends_block("time of a step, exponent in the coordinates", results.scaling, report);
+    text +=
+        trends_block("difference of the engines, exponent in the value", results.slopes, report);
+  }
+  return text + "\n" + verdict_line(report, colour) + "\n";
+}
+
+}  // namespace twincraft
