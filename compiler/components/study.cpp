@@ -229,6 +229,18 @@ void check_lengths(const std::vector<SweepSpec>& sweeps, Diagnostics& diagnostic
   }
 }
 
+/// Where the path to compare along stands among those that are swept.
+std::optional<std::size_t> compared_path(const StudySpec& study, Diagnostics& diagnostics) {
+  if (!study.compare) return std::nullopt;
+  for (std::size_t i = 0; i < study.sweep.size(); ++i)
+    if (study.sweep[i].set == *study.compare) return i;
+  diagnostics
+      .error(Code::kStudyCompare, study.span_of("compare"),
+             fmt::format("`{}` is not swept", *study.compare))
+      .with_hint("`compare` takes the `set` of one of the sweeps");
+  return std::nullopt;
+}
+
 }  // namespace
 
 const Table<StudySpec>& study_table() {
@@ -243,6 +255,11 @@ const Table<StudySpec>& study_table() {
                    one_of<Combine>({{"grid", Combine::kGrid}, {"zip", Combine::kZip}}),
                    "`grid`: every combination, the last path varies fastest. `zip`: the "
                    "first values together, then the second ones."),
+          optional("compare", &StudySpec::compare, maybe(text()),
+                   "One of the swept paths. Every member is also held, each engine against itself, "
+                   "against the member that has the first value of this path and all else equal "
+                   "(`zip`: against the first member). What should make no difference to the "
+                   "motion then shows what it makes to an engine."),
           optional("work_precision", &StudySpec::work_precision,
                    maybe(object(work_precision_table())), "What accuracy costs."),
       }}.exactly_one_of({"sweep", "work_precision"});
@@ -270,12 +287,16 @@ std::optional<StudyMembers> members_of(const StudySpec& study, Diagnostics& diag
     members.plan.members = members.listed.size();
   } else {
     members.axes = axes_of(study.sweep, diagnostics);
-    for (const SweepSpec& sweep : study.sweep) members.plan.paths.push_back(sweep.set);
+    for (const SweepSpec& sweep : study.sweep) {
+      members.plan.paths.push_back(sweep.set);
+      members.plan.lengths.push_back(sweep.values.size());
+    }
     members.plan.is_grid = study.combine == Combine::kGrid;
     if (!members.plan.is_grid) check_lengths(study.sweep, diagnostics);
     members.plan.members =
         members.plan.is_grid ? product(study.sweep) : study.sweep.front().values.size();
   }
+  members.plan.compare = compared_path(study, diagnostics);
   if (members.plan.members > kMaximumMembers)
     diagnostics.error(Code::kStudyTooLarge, study.span_of("sweep"),
                       fmt::format("the study has more than {} members", kMaximumMembers));

@@ -51,6 +51,7 @@ struct WorkPrecisionSpec : Written {
 struct StudySpec : Written {
   std::vector<SweepSpec> sweep;
   Combine combine = Combine::kGrid;
+  std::optional<std::string> compare;  // one of the swept paths
   std::optional<WorkPrecisionSpec> work_precision;
 };
 

@@ -113,6 +113,17 @@ Json agreement_json(const Comparison& comparison) {
   return agreement;
 }
 
+/// Without tolerances: one engine's two runs are not judged.
+Json against_json(const Baseline& against) {
+  Json json{{"member", against.member}};
+  for (const Baseline::OfEngine& of : against.engines) {
+    for (const Metric& metric : of.comparison.metrics)
+      json[of.engine][metric.key] = {{"max", metric.maximum}, {"at_s", metric.at}};
+    json[of.engine]["same_sample_times"] = of.comparison.same_times;
+  }
+  return json;
+}
+
 Json references_json(const std::vector<ReferenceRun>& runs) {
   Json references = Json::object();
   for (const ReferenceRun& run : runs)
@@ -146,6 +157,7 @@ Json member_json(const ReportedMember& member) {
     json["engines"][run.name] = engine_json(member.bundle.model, run);
   json["agreement"] = result.comparison ? agreement_json(*result.comparison) : Json::object();
   if (result.comparison) json["same_sample_times"] = result.comparison->same_times;
+  if (member.against) json["against"] = against_json(*member.against);
   json["references"] = references_json(result.references);
   if (result.timing) json["timing"] = timing_json(*result.timing);
   return json;

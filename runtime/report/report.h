@@ -14,11 +14,22 @@
 
 namespace twincraft {
 
+/// A member held against another one of the same study, each engine against itself.
+struct Baseline {
+  struct OfEngine {
+    std::string engine;  // "bsm"
+    Comparison comparison;
+  };
+  std::size_t member = 0;
+  std::vector<OfEngine> engines;  // those that ran in both
+};
+
 /// One member of a study and what made it.
 struct ReportedMember {
   Bundle bundle;
   std::vector<Setting> settings;
   Member result;
+  std::optional<Baseline> against = {};  // when the study compares its members
 
   /// Let go of what only the member's own files need: all samples but the last, and the texts.
   void shed();

@@ -120,6 +120,17 @@ std::string reference_cell(const ReportedMember& member, std::string_view engine
   return "-";
 }
 
+/// Attitude of an engine against its own baseline; position where there is no attitude.
+std::string against_cell(const ReportedMember& member, std::string_view engine) {
+  if (!member.against) return "-";
+  for (const Baseline::OfEngine& of : member.against->engines) {
+    if (of.engine != engine) continue;
+    const Metric& metric = of.comparison.metrics.front();
+    return quantity(metric.maximum, words_of(metric.key, member.bundle.model).unit);
+  }
+  return "-";
+}
+
 /// Some metric of some member has a tolerance.
 bool is_judged(const Report& report) {
   return std::any_of(report.members.begin(), report.members.end(),
@@ -146,6 +157,11 @@ std::vector<Column> columns_of(const Report& report) {
   columns.push_back({"system CoM", [](const ReportedMember& member) {
                        return metric_cell(member, find_metric(member.result, "com_position_m"));
                      }});
+  if (report.study->compare)
+    for (const char* engine : {"bsm", "mujoco"})
+      columns.push_back(
+          {engine_label(engine) + " by itself",
+           [engine](const ReportedMember& member) { return against_cell(member, engine); }});
   if (is_judged(report)) columns.push_back({"worst, of tolerance", worst_cell});
   const std::vector<ReferenceRun>& references = report.members.front().result.references;
   if (!references.empty())

@@ -129,6 +129,16 @@ Metric measure(const MetricLaw& law, const Trajectory& a, const Trajectory& b, s
   return metric;
 }
 
+Comparison measure_all(const std::vector<MetricLaw>& laws, const Trajectory& a,
+                       const Trajectory& b) {
+  Comparison comparison;
+  const std::size_t count = common_samples(a, b);
+  comparison.same_times = count > 0 && count == a.samples.size() && count == b.samples.size();
+  if (count == 0) return comparison;
+  for (const MetricLaw& law : laws) comparison.metrics.push_back(measure(law, a, b, count));
+  return comparison;
+}
+
 Verdict judge(const Comparison& comparison, bool both_complete) {
   bool judged = false;
   for (const Metric& metric : comparison.metrics) {
@@ -171,16 +181,18 @@ double principal_angle(const Quaterniond& a, const Quaterniond& b) {
 }
 
 Comparison compare(const Model& model, const Trajectory& a, const Trajectory& b) {
-  Comparison comparison;
-  const std::size_t count = common_samples(a, b);
-  comparison.same_times = count > 0 && count == a.samples.size() && count == b.samples.size();
-  if (count == 0) return comparison;
-  for (const MetricLaw& law : laws_of(model))
-    comparison.metrics.push_back(measure(law, a, b, count));
+  Comparison comparison = measure_all(laws_of(model), a, b);
   const bool both_complete =
       a.status == Trajectory::Status::kComplete && b.status == Trajectory::Status::kComplete;
   comparison.verdict = judge(comparison, both_complete);
   return comparison;
+}
+
+Comparison compare_hubs(bool translation, const Trajectory& a, const Trajectory& b) {
+  std::vector<MetricLaw> laws;
+  if (!translation) add_attitude_laws({}, laws);
+  add_translation_laws({}, laws);
+  return measure_all(laws, a, b);
 }
 
 }  // namespace twincraft

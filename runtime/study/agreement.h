@@ -47,6 +47,11 @@ struct Comparison {
 /// Compares the samples both trajectories have, from the start to the first that differ in time.
 Comparison compare(const Model& model, const Trajectory& a, const Trajectory& b);
 
+/// The hub alone, of two runs by one engine of machines that need not be the same: attitude and
+/// rate (unless `translation`), position, velocity and the system's centre of mass. Nothing is
+/// judged.
+Comparison compare_hubs(bool translation, const Trajectory& a, const Trajectory& b);
+
 /// Angle [rad] of the rotation between two attitudes, in [0, pi]; keeps its relative accuracy down
 /// to rotations of about 1e-16 rad, where the arc cosine of the scalar part knows nothing.
 double principal_angle(const Quaterniond& a, const Quaterniond& b);

@@ -169,6 +169,38 @@ TEST_F(ScsimStudy, FindsDisagreementInProportionToTheTokenMass) {
   EXPECT_EQ(found, 1);
 }
 
+TEST_F(ScsimStudy, ShowsWhatAnOrbitDoesToTheRotationOfOneEngine) {
+  const ProgramResult result = run({kModels + "studies/torque_motion.yaml", "--no-timing"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("MuJoCo by itself"));
+  const json members = report()["members"];
+  ASSERT_EQ(members.size(), 3u);
+  EXPECT_FALSE(members[0].contains("against"));
+  for (const int i : {1, 2}) {
+    EXPECT_EQ(members[i]["against"]["member"], 0);
+    EXPECT_EQ(members[i]["against"]["bsm"]["attitude_deg"]["max"], 0.0);
+    EXPECT_GT(members[i]["against"]["bsm"]["position_m"]["max"], 7.0e6);
+  }
+  // A force at the centre of mass turns nothing; what rounding of m v^2 turns is some 1e-4 deg.
+  EXPECT_EQ(members[1]["against"]["mujoco"]["attitude_deg"]["max"], 0.0);
+  EXPECT_GT(members[2]["against"]["mujoco"]["attitude_deg"]["max"], 1.0e-6);
+  EXPECT_LT(members[2]["against"]["mujoco"]["attitude_deg"]["max"], 1.0e-2);
+}
+
+TEST_F(ScsimStudy, HoldsEveryGroupOfAGridAgainstItsOwnFirst) {
+  const std::string spec = folder.write("tumbler.yaml", kTumbler + "  compare: simulation.step\n");
+  ASSERT_EQ(run({spec, "--no-timing", "--jobs", "3"}).exit_code, 0);
+  const json members = report()["members"];
+  const std::vector<int> baselines{0, 0, 0, 3, 3, 3};
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    ASSERT_EQ(members[i].contains("against"), i % 3 != 0) << i;
+    if (i % 3 == 0) continue;
+    EXPECT_EQ(members[i]["against"]["member"], baselines[i]);
+    EXPECT_EQ(members[i]["against"]["bsm"]["same_sample_times"], true);
+    EXPECT_GT(members[i]["against"]["bsm"]["attitude_deg"]["max"], 1.0e-6);
+  }
+}
+
 TEST_F(ScsimStudy, MeasuresWorkAgainstPrecision) {
   const ProgramResult result =
       run({kModels + "rw_panels.yaml", "--trials", "1", "--duration", "5 s", "--set",

@@ -75,6 +75,33 @@ TEST_F(StudyOfAFile, LetsTheLastPathOfAGridVaryFastest) {
               ElementsAre("0.1,euler", "0.1,rk2", "0.1,rk4", "0.05,euler", "0.05,rk2", "0.05,rk4"));
 }
 
+TEST_F(StudyOfAFile, HoldsMembersAgainstTheFirstValueOfOnePath) {
+  const std::string sweep =
+      "    - {set: simulation.step, values: [0.1, 0.05]}\n"
+      "    - {set: hub.mass, values: [1, 2, 3]}\n"
+      "    - {set: simulation.integrator, values: [rk2, rk4]}\n";
+  const CompileResult result =
+      compile_text(std::string(kBrick) + "study:\n  compare: hub.mass\n  sweep:\n" + sweep);
+  ASSERT_TRUE(result.study);
+  const StudyPlan& plan = result.study->plan();
+  ASSERT_EQ(plan.compare, 1u);
+  std::vector<std::size_t> baselines;
+  for (std::size_t i = 0; i < plan.members; ++i) baselines.push_back(plan.baseline_of(i));
+  EXPECT_THAT(baselines, ElementsAre(0, 1, 0, 1, 0, 1, 6, 7, 6, 7, 6, 7));
+  EXPECT_EQ(plan.last_held_against(1), 5u);
+  EXPECT_EQ(plan.last_held_against(6), 10u);
+}
+
+TEST_F(StudyOfAFile, HoldsAZipAgainstItsFirstMember) {
+  const CompileResult result = compile_text(
+      std::string(kBrick) +
+      "study:\n  combine: zip\n  compare: hub.mass\n  sweep:\n"
+      "    - {set: hub.mass, values: [1, 2]}\n    - {set: simulation.step, values: [0.1, 0.05]}\n");
+  ASSERT_TRUE(result.study);
+  EXPECT_EQ(result.study->plan().baseline_of(1), 0u);
+  EXPECT_EQ(result.study->plan().last_held_against(0), 1u);
+}
+
 TEST_F(StudyOfAFile, PairsTheValuesOfAZip) {
   const CompileResult result = compile_text(
       std::string(kBrick) +

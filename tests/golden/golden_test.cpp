@@ -91,7 +91,9 @@ TEST(Golden, TheSchemaAndTheReferenceAreFresh) {
 
 /// The model's description survives a trip through the resolved spec, and so do all its numbers.
 TEST(Golden, EveryResolvedSpecCompilesToTheSameBytes) {
-  for (const fs::path& spec : specs({"models", "models/gallery", "models/paper", "tests/golden"})) {
+  for (const fs::path& spec :
+       specs({"models", "models/gallery", "models/paper", "models/paper/flex_bodies",
+              "models/paper/studies", "tests/golden"})) {
     const Bundle bundle = compiled(spec);
     const fs::path resolved = fs::path(testing::TempDir()) / "golden_resolved.yaml";
     std::ofstream(resolved) << bundle.resolved_yaml;
