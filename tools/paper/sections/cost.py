@@ -1,0 +1,127 @@
+"""What the propagation costs: Table 1, the growth with the coordinates, the ranking by integrator.
+Nothing here is judged: it is of the machine that ran it."""
+
+from __future__ import annotations
+
+from math import log
+
+from document import table
+from plot import BLUE, GREEN, VERMILION, Plot
+from runs import Report, Runner
+from sections import work_precision
+from verdict import Section
+
+NAME = "cost"
+TABLE = (
+    ("orbit", "Two-body orbit (11 640 s, step 10 s)", 0.0032, 0.0073, 0.45),
+    ("torque", "Orbiting torqued rigid body (600 s, 0.1 s)", 0.0441, 0.0455, 0.97),
+    ("rw_panels", "Hub, 3 wheels, 2 panels, no gravity (120 s, 0.02 s)", 0.1018, 0.0595, 1.71),
+    ("orbit_compact", "Orbiting hub, 3 wheels (one orbit, 0.1 s)", 0.5391, 0.7574, 0.71),
+    ("orbit_extended", "Orbiting hub, 3 wheels, 2 panels (one orbit, 0.1 s)", 0.9532, 1.0206, 0.93),
+    ("variable_mass_orbit", "Variable mass and slosh on orbit (900 s, 0.05 s)", 0.6069, 0.5233, 1.16),
+)
+SEGMENTS = (1, 2, 4, 8, 16, 32)
+# Of 600 steps, as in studies/flex_cost.
+DURATIONS = ("6 s", "3.65 s", "1.29 s", "0.456 s", "0.161 s", "0.057 s")
+PUBLISHED_RATIO = {8: 2.38, 22: 1.88, 70: 4.43}
+PUBLISHED_EXPONENT = {"panels": 2.32, "bodies": 2.70, "mujoco": 1.35}
+
+
+def per_step(report: Report, engine: str, member: int = 0) -> float:
+    """[us]"""
+    return report.members[member]["timing"][engine]["us_per_step"]
+
+
+def table_1(runner: Runner) -> str:
+    rows = []
+    for spec, words, bsm, mujoco, ratio in TABLE:
+        report = runner.run(spec, f"time_{spec}", trials=1 if runner.quick else 5)
+        timing = report.members[0]["timing"]
+        ours = [timing[engine]["median_s"] for engine in ("bsm", "mujoco")]
+        cells = [f"{seconds:.4f}" for seconds in (bsm, mujoco)] + [f"{ratio:.2f}"]
+        cells += [f"{seconds:.4f}" for seconds in ours]
+        cells += [f"{timing['ratio_bsm_over_mujoco']:.2f}"]
+        rows.append([words, *cells])
+    head = ["case", "paper BSM [s]", "MuJoCo [s]", "ratio", "here BSM [s]", "MuJoCo [s]", "ratio"]
+    return "Table 1, seconds of propagation; a ratio below one says that the BSM is faster.\n\n" + table(
+        head, rows
+    )
+
+
+def growth(runner: Runner, plots: dict[str, Plot]) -> str:
+    trials = 1 if runner.quick else 5
+    panels = runner.run("studies/flex_cost", trials=trials)
+    times: dict[str, list[tuple[int, float]]] = {"panels": [], "bodies": [], "mujoco": []}
+    for member, (n, duration) in enumerate(zip(SEGMENTS, DURATIONS)):
+        bodies = runner.run(
+            f"flex_bodies/{n:02}", f"time_flex_bodies_{n:02}",
+            (f"simulation.duration={duration}", "simulation.record=1 s"), trials,
+        )  # fmt: skip
+        dof = 6 + 2 * n
+        times["panels"].append((dof, per_step(panels, "bsm", member)))
+        times["bodies"].append((dof, per_step(bodies, "bsm")))
+        times["mujoco"].append((dof, per_step(panels, "mujoco", member)))
+    plot = Plot("Cost of a step", "degrees of freedom", "time of one RK4 step [us]", "xy")
+    for key, name, colour, marker in (
+        ("panels", "BSM, panels", BLUE, 7),
+        ("bodies", "BSM, bodies", GREEN, 2),
+        ("mujoco", "MuJoCo", VERMILION, 4),
+    ):
+        plot.add(name, times[key], colour, marker=marker)
+    plot.extra = "set xrange [7:80]\nset format xy '%g'\nset xtics (8, 10, 14, 22, 38, 70)\n"
+    plots["figure-8"] = plot
+    return growth_table(times) + "\n\n" + exponents(times)
+
+
+def growth_table(times: dict[str, list[tuple[int, float]]]) -> str:
+    rows = []
+    for (dof, panels), (_, bodies), (_, mujoco) in zip(*times.values()):
+        published = PUBLISHED_RATIO.get(dof)
+        rows.append([
+            str(dof), f"{panels:.2f}", f"{bodies:.2f}", f"{mujoco:.2f}",
+            f"{panels / mujoco:.3f}", f"{bodies / panels:.2f}",
+            f"{published:.2f}" if published else "",
+        ])  # fmt: skip
+    head = ["DOF", "BSM, panels", "BSM, bodies", "MuJoCo", "panels/MuJoCo", "bodies/panels",
+            "paper's panels/MuJoCo"]  # fmt: skip
+    return "Microseconds of an RK4 step, medians over 600 steps.\n\n" + table(head, rows)
+
+
+def exponents(times: dict[str, list[tuple[int, float]]]) -> str:
+    names = {"panels": "BSM, panels", "bodies": "BSM, bodies", "mujoco": "MuJoCo"}
+    rows = []
+    for key, points in times.items():
+        (x1, y1), (x2, y2) = points[-2:]
+        ours = log(y2 / y1) / log(x2 / x1)
+        rows.append([names[key], f"{PUBLISHED_EXPONENT[key]:.2f}", f"{ours:.2f}"])
+    text = (
+        "Growth of the cost from 38 to 70 coordinates, as an exponent. The paper's analytic "
+        "effectors invert a dense matrix; ours eliminates one joint after another.\n\n"
+    )
+    return text + table(["engine", "paper", "here"], rows)
+
+
+def ranking(runner: Runner) -> str:
+    rows = []
+    for name, paper in (("rw", "MuJoCo in 36 of 36"), ("flex", "MuJoCo in 26 of 26")):
+        faster = work_precision.study(runner, name).json["studies"]["work_precision"]["bsm_faster"]
+        title = work_precision.STUDIES[name][1]
+        rows.append([title, paper, f"BSM in {faster['in']} of {faster['of']}"])
+    text = "Which engine is faster, configuration by configuration (Figures 9 and 10).\n\n"
+    return text + table(["study", "paper", "here"], rows)
+
+
+def run(runner: Runner, plots: dict[str, Plot]) -> Section:
+    section = Section(
+        "Propagation cost",
+        "Of the machine named at the top: another one gives other numbers, and a busy one other "
+        "ratios. Nothing here is judged. The protocol is the paper's: propagation alone, nothing "
+        "recorded, one warm-up, "
+        + ("one trial" if runner.quick else "the median of five trials")
+        + ", the order of the engines reversed every other round. The analytic engine of "
+        "the paper copies its states through maps; ours is a recursion over fixed-size structures, "
+        "so its side of the ratios is another program. The vehicles are run the exact way.",
+    )
+    section.tables = [table_1(runner), growth(runner, plots), ranking(runner)]
+    section.figure("figure-8", "time of a step against the coordinates")
+    return section
