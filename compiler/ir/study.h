@@ -19,15 +19,15 @@ struct Setting {
 /// Members differ in the values at a few paths.
 struct StudyPlan {
   std::size_t members = 0;
-  std::vector<std::string> paths;         // of a sweep, in its order
-  bool is_grid = true;                    // every combination; else all paths step together
+  std::vector<std::string> paths;  // of a sweep, in its order
+  bool is_grid = true;             // every combination; else all paths step together
+  // The last two members are the reference and the check of its floor, the others are the
+  // configurations that are held against them.
+  bool is_work_precision = false;
   std::vector<std::size_t> lengths = {};  // how many values each path takes
   // Every member is held, engine by engine, against the one that has the first value of this path
   // and all else equal; of a zip, against the first member.
   std::optional<std::size_t> compare = {};  // its place in `paths`
-  // The last two members are the reference and the check of its floor, the others are the
-  // configurations that are held against them.
-  bool is_work_precision = false;
 
   /// The member that `member` is held against: itself where it has the first value.
   /// @pre compare; paths and lengths are of one size

@@ -79,6 +79,27 @@ TEST_F(Comparing, ReportsTheLargestDifferenceAndWhenItFirstOccurred) {
   EXPECT_EQ(metric("position_m").maximum, 0.0);
 }
 
+TEST_F(Comparing, HoldsHubsOfUnlikeVehiclesAgainstEachOther) {
+  Model bare;
+  Trajectory other = test::standstill(bare);  // neither joints nor wheels
+  other.samples[1].q_BN = turn(0.25, {0, 0, 1});
+  const Comparison hubs = compare_hubs(false, a, other);
+  EXPECT_TRUE(hubs.same_times);
+  EXPECT_EQ(hubs.verdict, Verdict::kNotJudged);
+  ASSERT_NE(find(hubs, "attitude_deg"), nullptr);
+  EXPECT_NEAR(find(hubs, "attitude_deg")->maximum, 0.25 * kDegrees, 1e-12);
+  EXPECT_EQ(find(hubs, "attitude_deg")->at, 0.5);
+  EXPECT_EQ(find(hubs, "joint_deg"), nullptr);
+}
+
+TEST_F(Comparing, HoldsPointMassesAgainstEachOtherByPlaceAlone) {
+  b.samples[2].r_CN_N = Vector3d(3, 0, 4);
+  const Comparison hubs = compare_hubs(true, a, b);
+  EXPECT_EQ(find(hubs, "attitude_deg"), nullptr);
+  ASSERT_NE(find(hubs, "com_position_m"), nullptr);
+  EXPECT_EQ(find(hubs, "com_position_m")->maximum, 5.0);
+}
+
 TEST_F(Comparing, LooksAtTheLastSample) {
   b.samples[2].omega_BN_B.y() = 2.0e-9;
   EXPECT_EQ(metric("rate_rad_s").maximum, 2.0e-9);

@@ -20,7 +20,7 @@ in `models/paper`, the published numbers in `tools/paper/published.json`.
 RULES = """\
 | verdict | means |
 |---|---|
-| reproduced | ours, the paper's way, is within 10 % of the published number; orders and ratios of a whole number within a stated distance; where rounding makes the number, within a factor of ten; a published bound holds |
+| reproduced | ours, the paper's way, is within 10 % of the published number; orders within 0.02 and ratios of turns within 0.001; where rounding makes the number, within a factor of ten; a published bound holds |
 | smaller | rounding makes the published number, and ours is more than ten times smaller |
 | not judged | the number is of one processor and one build of MuJoCo, or the paper gives none |
 | **differs** | none of these |
@@ -53,7 +53,7 @@ def cells_of(row: Row, mark: str) -> list[str]:
             return number(value)
         return f"{value:.{row.decimals}f}"
 
-    published = ("at most " if row.less else "") + shown(row.published)
+    published = row.says or ("at most " if row.less else "") + shown(row.published)
     bound = "" if row.bound is None else number(row.bound)
     exact = shown(row.exact) if row.exact is not None else ""
     ours = shown(row.paper)
@@ -109,7 +109,16 @@ def summary_of(sections: list[Section]) -> str:
         rows.append([name, *(str(count) for count in counts)])
     rows.append(["all", *(str(count) for count in totals)])
     head = ["section", "reproduced", "smaller", "not judged", "differs", "bound holds", "exceeded"]
-    return table(head, rows)
+    return table(head, rows) + "\n\n" + paragraph(sentence_of(totals))
+
+
+def sentence_of(totals: list[int]) -> str:
+    reproduced, smaller, unjudged, differs, holds, exceeded = totals
+    return (
+        f"Of {sum(totals[:4])} published numbers {reproduced} are reproduced, {smaller} are smaller "
+        f"here, {unjudged} are not judged and {differs} differ. Of {holds + exceeded} bounds on one "
+        f"exact machine {holds} hold."
+    )
 
 
 def provenance_of(provenance: dict, command: str) -> str:

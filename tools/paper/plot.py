@@ -43,7 +43,8 @@ class Plot:
     x: str
     y: str
     log: str = ""  # x, y or xy
-    key: str = "top left"
+    key: str = "top left"  # as gnuplot has it; `outside right center` beside the plot
+    zero: float | None = None  # where a logarithmic axis shows an exact zero
     curves: list[Curve] = field(default_factory=list)
     extra: str = ""  # further commands
 
@@ -51,13 +52,15 @@ class Plot:
         self.curves.append(Curve(title, points, colour, **style))
 
 
-def _drawable(curve: Curve, log: str) -> list[tuple[float, float]]:
-    """A logarithmic axis has no place for zero."""
-    return [
-        (x, y)
-        for x, y in curve.points
-        if x is not None and y is not None and ("x" not in log or x > 0) and ("y" not in log or y > 0)
-    ]
+def _drawable(curve: Curve, plot: Plot) -> list[tuple[float, float]]:
+    """A logarithmic axis has no place for zero but the one that the plot gives it."""
+    points = []
+    for x, y in curve.points:
+        if y == 0 and plot.zero is not None:
+            y = plot.zero
+        if ("x" not in plot.log or x > 0) and ("y" not in plot.log or y > 0):
+            points.append((x, y))
+    return points
 
 
 def script_of(plot: Plot) -> str:
@@ -65,10 +68,15 @@ def script_of(plot: Plot) -> str:
     text += f"set key {plot.key}\n"
     for axis in plot.log:
         text += f'set logscale {axis}\nset format {axis} "10^{{%L}}"\n'
+    if "outside right" in plot.key:
+        text += "set rmargin -1\n"
+    if plot.zero is not None:
+        text += f'set yrange [{plot.zero / 3!r}:]\nset ytics add ("exactly 0" {plot.zero!r})\n'
+        text += "set lmargin 15\n"
     text += plot.extra
     parts = []
     for number, curve in enumerate(plot.curves):
-        points = _drawable(curve, plot.log)
+        points = _drawable(curve, plot)
         if not points:
             continue
         text += f"$d{number} << EOD\n" + "".join(f"{x!r} {y!r}\n" for x, y in points) + "EOD\n"
@@ -91,6 +99,12 @@ def draw(plot: Plot, path: pathlib.Path) -> None:
     temporary = path.with_suffix(".tmp")
     temporary.write_text(done.stdout)
     temporary.replace(path)
+
+
+def ticks(axis: str, values: tuple[float, ...], low: float, high: float) -> str:
+    """Ticks of a logarithmic axis at these values alone."""
+    marks = ", ".join(f'"{value:g}" {value!r}' for value in values)
+    return f"set {axis}tics ({marks})\nset {axis}range [{low!r}:{high!r}]\n"
 
 
 def slope_line(points: list[tuple[float, float]], order: float, factor: float = 0.3) -> list:

@@ -67,6 +67,7 @@ class Row:
     bound_verdict: str = ""
     note: str = ""
     less: bool = False  # the published number is a bound
+    says: str = ""  # in words, where the paper gives no number
     decimals: int | None = None  # written so, where the usual digits would hide it
 
 
@@ -95,6 +96,7 @@ class Section:
         verdict = RULES[entry["rule"]](ours, published, *options) if finite else DIFFERS
         row = Row(entry["what"], entry["unit"], published, paper, exact, verdict)
         row.less = entry["rule"] == "below"
+        row.says = entry.get("says", "")
         row.decimals = entry.get("decimals")
         row.note = entry.get("note", "")
         if "bound" in entry and exact is not None:

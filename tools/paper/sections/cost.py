@@ -6,7 +6,7 @@ from __future__ import annotations
 from math import log
 
 from document import table
-from plot import BLUE, GREEN, VERMILION, Plot
+from plot import BLUE, GREEN, VERMILION, Plot, ticks
 from runs import Report, Runner
 from sections import work_precision
 from verdict import Section
@@ -68,7 +68,7 @@ def growth(runner: Runner, plots: dict[str, Plot]) -> str:
         ("mujoco", "MuJoCo", VERMILION, 4),
     ):
         plot.add(name, times[key], colour, marker=marker)
-    plot.extra = "set xrange [7:80]\nset format xy '%g'\nset xtics (8, 10, 14, 22, 38, 70)\n"
+    plot.extra = ticks("x", (8, 10, 14, 22, 38, 70), 7, 80) + "set format y '%g'\n"
     plots["figure-8"] = plot
     return growth_table(times) + "\n\n" + exponents(times)
 

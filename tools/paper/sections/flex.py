@@ -1,6 +1,6 @@
 """Segmented arrays, as panels and as general bodies."""
 
-from plot import BLUE, GREEN, VERMILION, Plot
+from plot import BLUE, GREEN, VERMILION, Plot, ticks
 from runs import Report, Runner, attitude_history
 from verdict import Section
 
@@ -49,7 +49,8 @@ def run(runner: Runner, plots: dict[str, Plot]) -> Section:
         ("bodies", "panels, bodies", GREEN, 2),
     ):
         plot.add(name, largest[key], colour, marker=marker)
-    plot.extra = "set xrange [7:80]\nset format x '%g'\nset xtics (8, 10, 14, 22, 38, 70)\n"
+    plot.zero = 1.0e-15
+    plot.extra = ticks("x", (8, 10, 14, 22, 38, 70), 7, 80)
     plots["figure-7"] = plot
     section.figure("figure-7", "largest attitude difference of every pair against the coordinates")
     return section

@@ -8,6 +8,7 @@ from verdict import Section
 
 NAME = "multibody"
 MU, AXIS = 3.98600436e14, 7.0e6  # [m3/s2], [m]
+KEY = "outside bottom center horizontal maxcols 2"
 PAPER, EXACT = 0, 1  # members of either study
 
 
@@ -38,8 +39,8 @@ def run(runner: Runner, plots: dict[str, Plot]) -> Section:
             section.add(f"multibody.{name}{suffix}", *both)
     section.add("multibody.scale", forcing_scale())
 
-    angle = Plot("Hub attitude on orbit", "time [s]", "difference [deg]", "y", "bottom right")
-    centre = Plot("System centre of mass", "time [s]", "distance [m]", "y", "bottom right")
+    angle = Plot("Hub attitude on orbit", "time [s]", "difference [deg]", "y", KEY)
+    centre = Plot("System centre of mass", "time [s]", "distance [m]", "y", KEY)
     for name, colours in (("extended", (VERMILION, BLUE)), ("compact", (ORANGE, SKY))):
         for member, way in ((PAPER, "the paper's way"), (EXACT, "exact")):
             pair = [reports[name].trajectory(engine, member) for engine in ("bsm", "mujoco")]

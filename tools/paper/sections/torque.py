@@ -2,7 +2,7 @@
 
 import math
 
-from plot import ENGINE_COLOUR, GREY, VERMILION, Plot, slope_line
+from plot import BLUE, GREEN, GREY, VERMILION, Plot, slope_line, ticks
 from runs import ENGINES, Report, Runner, Trajectory, principal_angle
 from verdict import Section
 
@@ -55,14 +55,17 @@ def motion(runner: Runner, section: Section, plots: dict[str, Plot]) -> None:
     section.add("torque.motion.mujoco", paper[2], exact[2])
     section.add("torque.motion.least", min(paper), min(exact))
     section.add("torque.motion.most", max(paper), max(exact))
-    plot = Plot("On orbit against at rest, MuJoCo", "step [s]", "largest difference [deg]", "xy")
-    plot.add("inertial frame (the paper's way)", list(zip(STEPS, paper)), VERMILION)
-    plot.extra = "set yrange [1e-6:1e-2]\n"
+    plot = Plot("On orbit against at rest", "step [s]", "largest difference [deg]", "xy")
+    plot.key, plot.zero = "center right", 1.0e-16
+    plot.add("MuJoCo, inertial frame", list(zip(STEPS, paper)), VERMILION)
+    plot.add("MuJoCo, moving frame", list(zip(STEPS, exact)), GREEN, marker=6)
+    plot.add("BSM", list(zip(STEPS, sensitivity("bsm", COMOVING))), BLUE, marker=2)
+    plot.extra = ticks("x", STEPS, 0.01, 0.5)
     plots["figure-2a"] = plot
     section.figure(
         "figure-2a",
-        "what an orbit does to the rotation of MuJoCo in its inertial frame, without order in the "
-        "step; exactly zero, and so not drawn, in the BSM and in the frame that moves along",
+        "what an orbit does to the rotation of either engine: in MuJoCo's inertial frame something "
+        "without order in the step, elsewhere nothing",
     )
 
 
@@ -72,8 +75,9 @@ def at_rest(runner: Runner, section: Section, plots: dict[str, Plot]) -> None:
     section.add("torque.rest.coarse", points[0][1])
     section.add("torque.rest.fine", points[-1][1])
     plot = Plot("Difference of the engines at rest", "step [s]", "largest difference [deg]", "xy")
-    plot.add("MRPs and a quaternion", points, ENGINE_COLOUR["bsm"])
+    plot.add("MRPs and a quaternion", points, BLUE)
     plot.add("fourth order", slope_line(points, 4), GREY, style="lines", dash=3)
+    plot.extra = ticks("x", STEPS, 0.01, 0.5)
     plots["figure-2b"] = plot
     section.figure("figure-2b", "the engines at rest: two charts of attitude under one integrator")
 
@@ -93,14 +97,16 @@ def drift(runner: Runner, section: Section, plots: dict[str, Plot]) -> None:
     section.add("torque.drift.slow", paper[0][1], exact[0][1])
     section.add("torque.drift.fast", paper[-1][1], exact[-1][1])
     plot = Plot("Uniform motion against rest", "speed [km/s]", "largest difference [deg]", "xy")
+    plot.key, plot.zero = "center right", 1.0e-16
     plot.add("MuJoCo, inertial frame", paper, VERMILION)
     plot.add("speed squared", slope_line(paper, 2, 1.0), GREY, style="lines", dash=3)
-    plot.extra = "set xrange [0.6:9]\n"
+    plot.add("MuJoCo, moving frame", exact, GREEN, marker=6)
+    plot.add("BSM", against_rest("bsm", "inertial"), BLUE, marker=2)
+    plot.extra = ticks("x", SPEEDS[1:], 0.6, 9.0)
     plots["figure-3"] = plot
     section.figure(
         "figure-3",
-        "what a drift without physical effect does to MuJoCo in its inertial frame; exactly zero in "
-        "the BSM and in the frame that moves along",
+        "what a drift, which has no physical effect, does to the rotation of either engine",
     )
 
 
