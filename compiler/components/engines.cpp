@@ -15,6 +15,11 @@ const Table<BsmSpec>& bsm_table() {
                    one_of<AttitudeChart>(
                        {{"mrp", AttitudeChart::kMrp}, {"quaternion", AttitudeChart::kQuaternion}}),
                    "What it integrates."),
+          optional(
+              "chains", &BsmSpec::chains,
+              one_of<ChainPath>({{"planar", ChainPath::kPlanar}, {"general", ChainPath::kGeneral}}),
+              "`planar`: chains of parallel hinges are eliminated in their plane, which is "
+              "faster. `general`: as any other tree; the same motion to rounding."),
           optional("gravity", &BsmSpec::gravity, maybe(gravity_law()),
                    "Overrides `environment.gravity.application` for this engine."),
       }};
@@ -80,7 +85,8 @@ void check(const EnginesSpec& engines, const EnvironmentSpec& environment,
 
 EngineControls lower(const EnginesSpec& engines) {
   return {engines.bsm.attitude,      engines.mujoco.frame,       engines.mujoco.wheel_mass,
-          engines.mujoco.compensate, engines.mujoco.bob_inertia, engines.mujoco.particle_inertia};
+          engines.mujoco.compensate, engines.mujoco.bob_inertia, engines.mujoco.particle_inertia,
+          engines.bsm.chains};
 }
 
 Gravity lower_gravity(const EnvironmentSpec& environment, const EnginesSpec& engines) {

@@ -10,6 +10,7 @@ namespace twincraft {
 
 struct BsmSpec : Written {
   AttitudeChart attitude = AttitudeChart::kMrp;
+  ChainPath chains = ChainPath::kPlanar;
   std::optional<GravityLaw> gravity;  // absent: the environment's
 };
 

@@ -80,6 +80,8 @@ struct SimulationPlan {
 };
 
 enum class AttitudeChart { kMrp, kQuaternion };
+/// How the analytic engine eliminates chains of parallel hinges: in their plane, or as any tree.
+enum class ChainPath { kPlanar, kGeneral };
 enum class MujocoFrame { kComoving, kInertial };
 
 struct EngineControls {
@@ -90,6 +92,7 @@ struct EngineControls {
   // [kg m^2] token inertias of pendulum bobs and particles, in the tree alone
   double bob_inertia = 0.0;
   double particle_inertia = 0.0;
+  ChainPath chains = ChainPath::kPlanar;
 };
 
 /// Tolerances of the verdict; absent: reported, not judged.

@@ -23,7 +23,9 @@ class BsmEngine final : public Engine {
   BsmEngine(const Model& model, AttitudeChart chart)
       : assembly_(model.assembly),
         initial_(model.initial),
-        recursion_(model.assembly),
+        recursion_(model.assembly, model.engines.chains == ChainPath::kGeneral
+                                       ? bsm::Chains::kGeneral
+                                       : bsm::Chains::kPlanar),
         propellant_(model.tanks),
         shares_(propellant_.shares(0.0)),
         forces_(model, model.gravity.bsm, elements_of(model.assembly), FieldFrame::kFalling),

@@ -19,11 +19,18 @@ TEST(Engines, AreTheSameMachineByDefault) {
   const Trial trial(brick_with(""));
   ASSERT_TRUE(trial.model);
   EXPECT_EQ(trial.model->engines.attitude, AttitudeChart::kMrp);
+  EXPECT_EQ(trial.model->engines.chains, ChainPath::kPlanar);
   EXPECT_EQ(trial.model->engines.frame, MujocoFrame::kComoving);
   EXPECT_EQ(trial.model->engines.wheel_mass, 1.0e-6);
   EXPECT_TRUE(trial.model->engines.compensate);
   EXPECT_EQ(trial.model->gravity.bsm, GravityLaw::kNone);
   EXPECT_EQ(trial.model->gravity.mujoco, GravityLaw::kNone);
+}
+
+TEST(Engines, EliminateChainsAsTheSpecSays) {
+  const Trial trial(brick_with("engines: {bsm: {chains: general}}\n"));
+  ASSERT_TRUE(trial.model);
+  EXPECT_EQ(trial.model->engines.chains, ChainPath::kGeneral);
 }
 
 TEST(Engines, ApplyGravityAsTheEnvironmentSaysUnlessOverridden) {

@@ -213,6 +213,18 @@ double momentum_ratio(Bundle bundle) {
   return off(2.0 * step) / off(step);
 }
 
+TEST_F(SameMachine, WrittenAsBodiesFliesAlikeByEitherPath) {
+  Model general = bodies_.model;
+  general.engines.chains = ChainPath::kGeneral;
+  const auto a = make_bsm_engine(general), b = make_bsm_engine(bodies_.model);
+  const RandomState state = random_states(general, 1).front();
+  // Rounded in another order: they are two paths, and one motion.
+  EXPECT_NE(accelerations(*a, state), accelerations(*b, state));
+  const Comparison flown = compare(general, propagate(*a, general), propagate(*b, bodies_.model));
+  ASSERT_EQ(flown.metrics.at(0).key, "attitude_deg");
+  EXPECT_LT(flown.metrics.at(0).maximum, 6e-13);
+}
+
 TEST_F(SameMachine, WrittenAsBodiesKeepsMomentumToTheOrderOfTheIntegrator) {
   EXPECT_NEAR(momentum_ratio(bodies_), 16.0, 4.0);
 }

@@ -67,6 +67,8 @@ def model(n: int) -> str:
                     name=f"{side}{i}", parent=f"{side}{i - 1}", length=length, hinge=hinge
                 )
             text += MASS.format(**numbers)
+    # Bodies stand for the paper's general effector, so they take the general recursion.
+    text += "\nengines:\n  bsm: {chains: general}\n"
     return text + f"\nsimulation: {{step: {min(0.01, period / 200)!r} s}}\n"
 
 

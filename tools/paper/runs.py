@@ -14,6 +14,7 @@ from functools import lru_cache
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 MODELS = ROOT / "models" / "paper"
+SCSIM = ROOT / "build" / "release" / "bin" / "scsim"  # built once, by tools/scsim
 ENGINES = ("bsm", "mujoco")
 
 
@@ -119,7 +120,7 @@ class Runner:
         folder = self.folder / name
         folder.mkdir(parents=True, exist_ok=True)
         (folder / "report.json").unlink(missing_ok=True)
-        command = [str(ROOT / "tools" / "scsim"), str(MODELS / f"{spec}.yaml"), "-o", str(folder)]
+        command = [str(SCSIM), str(MODELS / f"{spec}.yaml"), "-o", str(folder)]
         command += ["--quiet", "--trials", str(trials)]
         for change in sets:
             command += ["--set", change]

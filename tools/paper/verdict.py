@@ -7,7 +7,9 @@ import math
 import pathlib
 from dataclasses import dataclass, field
 
-PUBLISHED = json.loads((pathlib.Path(__file__).parent / "published.json").read_text())
+_DATA = json.loads((pathlib.Path(__file__).parent / "published.json").read_text())
+PUBLISHED = _DATA["numbers"]
+PUBLISHED_COST = _DATA["cost"]  # of the paper's machine: shown, never judged
 
 REPRODUCED = "reproduced"
 SMALLER = "smaller"

@@ -5,26 +5,25 @@ from __future__ import annotations
 
 from math import log
 
-from document import table
+from document import paragraph, table
 from plot import BLUE, GREEN, VERMILION, Plot, ticks
 from runs import Report, Runner
 from sections import work_precision
-from verdict import Section
+from verdict import PUBLISHED_COST, Section
 
 NAME = "cost"
-TABLE = (
-    ("orbit", "Two-body orbit (11 640 s, step 10 s)", 0.0032, 0.0073, 0.45),
-    ("torque", "Orbiting torqued rigid body (600 s, 0.1 s)", 0.0441, 0.0455, 0.97),
-    ("rw_panels", "Hub, 3 wheels, 2 panels, no gravity (120 s, 0.02 s)", 0.1018, 0.0595, 1.71),
-    ("orbit_compact", "Orbiting hub, 3 wheels (one orbit, 0.1 s)", 0.5391, 0.7574, 0.71),
-    ("orbit_extended", "Orbiting hub, 3 wheels, 2 panels (one orbit, 0.1 s)", 0.9532, 1.0206, 0.93),
-    ("variable_mass_orbit", "Variable mass and slosh on orbit (900 s, 0.05 s)", 0.6069, 0.5233, 1.16),
-)
+CASES = {
+    "orbit": "Two-body orbit (11 640 s, step 10 s)",
+    "torque": "Orbiting torqued rigid body (600 s, 0.1 s)",
+    "rw_panels": "Hub, 3 wheels, 2 panels, no gravity (120 s, 0.02 s)",
+    "orbit_compact": "Orbiting hub, 3 wheels (one orbit, 0.1 s)",
+    "orbit_extended": "Orbiting hub, 3 wheels, 2 panels (one orbit, 0.1 s)",
+    "variable_mass_orbit": "Variable mass and slosh on orbit (900 s, 0.05 s)",
+}
 SEGMENTS = (1, 2, 4, 8, 16, 32)
 # Of 600 steps, as in studies/flex_cost.
 DURATIONS = ("6 s", "3.65 s", "1.29 s", "0.456 s", "0.161 s", "0.057 s")
-PUBLISHED_RATIO = {8: 2.38, 22: 1.88, 70: 4.43}
-PUBLISHED_EXPONENT = {"panels": 2.32, "bodies": 2.70, "mujoco": 1.35}
+SCALING = PUBLISHED_COST["scaling"]
 
 
 def per_step(report: Report, engine: str, member: int = 0) -> float:
@@ -34,12 +33,12 @@ def per_step(report: Report, engine: str, member: int = 0) -> float:
 
 def table_1(runner: Runner) -> str:
     rows = []
-    for spec, words, bsm, mujoco, ratio in TABLE:
+    for spec, words in CASES.items():
+        paper = PUBLISHED_COST["table_1"]["rows"][spec]
         report = runner.run(spec, f"time_{spec}", trials=1 if runner.quick else 5)
         timing = report.members[0]["timing"]
-        ours = [timing[engine]["median_s"] for engine in ("bsm", "mujoco")]
-        cells = [f"{seconds:.4f}" for seconds in (bsm, mujoco)] + [f"{ratio:.2f}"]
-        cells += [f"{seconds:.4f}" for seconds in ours]
+        cells = [f"{paper['bsm_s']:.4f}", f"{paper['mujoco_s']:.4f}", f"{paper['ratio']:.2f}"]
+        cells += [f"{timing[engine]['median_s']:.4f}" for engine in ("bsm", "mujoco")]
         cells += [f"{timing['ratio_bsm_over_mujoco']:.2f}"]
         rows.append([words, *cells])
     head = ["case", "paper BSM [s]", "MuJoCo [s]", "ratio", "here BSM [s]", "MuJoCo [s]", "ratio"]
@@ -73,18 +72,28 @@ def growth(runner: Runner, plots: dict[str, Plot]) -> str:
     return growth_table(times) + "\n\n" + exponents(times)
 
 
+def with_paper(ours: float, published: dict[str, float], dof: int) -> str:
+    """Ours, and the paper's in brackets where it gives one."""
+    paper = published.get(str(dof))
+    return f"{ours:.2f}" + (f" ({paper:.2f})" if paper else "")
+
+
 def growth_table(times: dict[str, list[tuple[int, float]]]) -> str:
     rows = []
     for (dof, panels), (_, bodies), (_, mujoco) in zip(*times.values()):
-        published = PUBLISHED_RATIO.get(dof)
         rows.append([
             str(dof), f"{panels:.2f}", f"{bodies:.2f}", f"{mujoco:.2f}",
-            f"{panels / mujoco:.3f}", f"{bodies / panels:.2f}",
-            f"{published:.2f}" if published else "",
+            with_paper(panels / mujoco, SCALING["panels_over_mujoco"], dof),
+            with_paper(bodies / mujoco, SCALING["bodies_over_mujoco"], dof),
+            with_paper(bodies / panels, SCALING["bodies_over_panels"], dof),
         ])  # fmt: skip
-    head = ["DOF", "BSM, panels", "BSM, bodies", "MuJoCo", "panels/MuJoCo", "bodies/panels",
-            "paper's panels/MuJoCo"]  # fmt: skip
-    return "Microseconds of an RK4 step, medians over 600 steps.\n\n" + table(head, rows)
+    head = ["DOF", "BSM, panels [us]", "BSM, bodies [us]", "MuJoCo [us]", "panels/MuJoCo",
+            "bodies/MuJoCo", "bodies/panels"]  # fmt: skip
+    text = (
+        "Time of one RK4 step, medians over 600 steps; the paper's ratios, where it gives them, in "
+        "brackets. Panels take the planar path of the analytic engine, bodies its general one."
+    )
+    return paragraph(text) + "\n\n" + table(head, rows)
 
 
 def exponents(times: dict[str, list[tuple[int, float]]]) -> str:
@@ -93,20 +102,20 @@ def exponents(times: dict[str, list[tuple[int, float]]]) -> str:
     for key, points in times.items():
         (x1, y1), (x2, y2) = points[-2:]
         ours = log(y2 / y1) / log(x2 / x1)
-        rows.append([names[key], f"{PUBLISHED_EXPONENT[key]:.2f}", f"{ours:.2f}"])
+        rows.append([names[key], f"{SCALING['exponents_38_to_70'][key]:.2f}", f"{ours:.2f}"])
     text = (
         "Growth of the cost from 38 to 70 coordinates, as an exponent. The paper's analytic "
-        "effectors invert a dense matrix; ours eliminates one joint after another.\n\n"
+        "effectors invert a dense matrix; ours eliminates one joint after another."
     )
-    return text + table(["engine", "paper", "here"], rows)
+    return paragraph(text) + "\n\n" + table(["engine", "paper", "here"], rows)
 
 
 def ranking(runner: Runner) -> str:
     rows = []
-    for name, paper in (("rw", "MuJoCo in 36 of 36"), ("flex", "MuJoCo in 26 of 26")):
+    for name, count in PUBLISHED_COST["ranking"]["mujoco_faster_in"].items():
         faster = work_precision.study(runner, name).json["studies"]["work_precision"]["bsm_faster"]
         title = work_precision.STUDIES[name][1]
-        rows.append([title, paper, f"BSM in {faster['in']} of {faster['of']}"])
+        rows.append([title, f"MuJoCo in {count} of {count}", f"BSM in {faster['in']} of {faster['of']}"])
     text = "Which engine is faster, configuration by configuration (Figures 9 and 10).\n\n"
     return text + table(["study", "paper", "here"], rows)
 

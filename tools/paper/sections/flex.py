@@ -22,10 +22,10 @@ def panels_run(runner: Runner) -> Report:
 def run(runner: Runner, plots: dict[str, Plot]) -> Section:
     section = Section(
         "Segmented flexible panels",
-        "Two arrays of N segments, 8 to 70 coordinates, three times: as `panels`, as general "
-        "`bodies`, and as MuJoCo's tree. Panels and bodies are the paper's nHinged and NDOF "
-        "effectors in their place only: both are eliminated by one recursion here, so their "
-        "difference is what the compiler makes of two ways of writing, not two derivations.",
+        "Two arrays of N segments, 8 to 70 coordinates, three times: as `panels`, which the "
+        "analytic engine eliminates in their plane, in the place of the paper's "
+        "nHingedRigidBody; as `bodies`, which take its general recursion, in the place of "
+        "spinningBodyNDOF; and as MuJoCo's tree.",
     )
     panels = panels_run(runner)
     largest: dict[str, list[tuple[float, float]]] = {"mujoco": [], "bodies_mujoco": [], "bodies": []}
