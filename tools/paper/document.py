@@ -102,6 +102,8 @@ def summary_of(sections: list[Section]) -> str:
     rows = []
     totals = [0] * (len(verdicts) + 2)
     for index, section in enumerate(sections, 1):
+        if not section.rows and not section.failure:
+            continue  # nothing in it is judged
         counts = [section.count(verdict) for verdict in verdicts]
         counts += [section.count_bounds(verdict) for verdict in (HOLDS, EXCEEDED)]
         totals = [a + b for a, b in zip(totals, counts)]

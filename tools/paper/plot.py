@@ -70,9 +70,9 @@ def script_of(plot: Plot) -> str:
         text += f'set logscale {axis}\nset format {axis} "10^{{%L}}"\n'
     if "outside right" in plot.key:
         text += "set rmargin -1\n"
-    if plot.zero is not None:
+    if plot.zero is not None and any(y == 0 for curve in plot.curves for _, y in curve.points):
         text += f'set yrange [{plot.zero / 3!r}:]\nset ytics add ("exactly 0" {plot.zero!r})\n'
-        text += "set lmargin 15\n"
+        text += "set lmargin 15\n"  # room for the words
     text += plot.extra
     parts = []
     for number, curve in enumerate(plot.curves):
