@@ -120,6 +120,20 @@ def ranking(runner: Runner) -> str:
     return text + table(["study", "paper", "here"], rows)
 
 
+def load_words(runner: Runner) -> str:
+    """How much else the machine had to do: the largest load average at the start of a timed run."""
+    loads = [
+        report.json["provenance"]["load_average"]
+        for report in runner.done.values()
+        if "timing" in report.members[0]
+    ]
+    known = [load for load in loads if load is not None]
+    if not known:
+        return ""
+    cores = runner.provenance.get("cores", "?")
+    return f" The load average was at most {max(known):.1f} on {cores} cores when a run began."
+
+
 def run(runner: Runner, plots: dict[str, Plot]) -> Section:
     section = Section(
         "Propagation cost",
@@ -132,5 +146,6 @@ def run(runner: Runner, plots: dict[str, Plot]) -> Section:
         "so its side of the ratios is another program. The vehicles are run the exact way.",
     )
     section.tables = [table_1(runner), growth(runner, plots), ranking(runner)]
+    section.text += load_words(runner)
     section.figure("figure-8", "time of a step against the coordinates")
     return section
