@@ -70,7 +70,7 @@ def draw_error(sweep: Report, plots: dict[str, Plot]) -> None:
 
 def draw_residual(cross: list[list[float]], plots: dict[str, Plot]) -> None:
     plot = Plot("Distance of the engines", "step [s]", "largest distance [m]", "xy")
-    plot.key, plot.zero = "center right", 1.0e-10
+    plot.key, plot.zero = "at graph 0.98, 0.88", 1.0e-10
     for name, residuals, colour in zip(("the paper's way", "exact"), cross, (VERMILION, BLUE)):
         plot.add(name, list(zip(reversed(STEPS), residuals)), colour)
     bound = PUBLISHED["orbit.cross_sweep"]["published"]
