@@ -22,15 +22,14 @@ MovingElement moving(const MassElement& element, double scale, const LinkPose& p
 
 /// @param scales         of every tank's elements
 /// @param without_a_tank  of all others
-std::vector<MovingElement> moving_elements(Recursion& recursion, const Assembly& assembly,
-                                           std::span<const double> scales, double without_a_tank,
-                                           std::span<const LinkRate> rates) {
+std::vector<MovingElement> moving_elements(const Motion& motion, const Assembly& assembly,
+                                           std::span<const double> scales, double without_a_tank) {
   std::vector<MovingElement> elements;
   for (std::size_t i = 0; i < assembly.links.size(); ++i) {
     for (const MassElement& element : assembly.links[i].elements) {
       const double scale =
           element.tank < 0 ? without_a_tank : scales[static_cast<std::size_t>(element.tank)];
-      elements.push_back(moving(element, scale, recursion.poses()[i], rates[i]));
+      elements.push_back(moving(element, scale, motion.poses[i], motion.rates[i]));
     }
   }
   return elements;
@@ -38,12 +37,9 @@ std::vector<MovingElement> moving_elements(Recursion& recursion, const Assembly&
 
 }  // namespace
 
-Totals sum_up(Recursion& recursion, const Assembly& assembly, std::span<const double> shares,
-              std::span<const double> q_dot, std::span<const double> rotor_speed) {
-  std::vector<LinkRate> rates(assembly.links.size());
-  recursion.rates(q_dot, rates);
-  const std::vector<MovingElement> elements =
-      moving_elements(recursion, assembly, shares, 1.0, rates);
+Totals sum_up(const Motion& motion, const Assembly& assembly, std::span<const double> shares,
+              std::span<const double> rotor_speed) {
+  const std::vector<MovingElement> elements = moving_elements(motion, assembly, shares, 1.0);
 
   Totals totals;
   for (const MovingElement& e : elements) {
@@ -65,25 +61,22 @@ Totals sum_up(Recursion& recursion, const Assembly& assembly, std::span<const do
   for (std::size_t k = 0; k < assembly.rotors.size(); ++k) {
     const Rotor& rotor = assembly.rotors[k];
     const auto i = static_cast<std::size_t>(rotor.link);
-    const Vector3d axis = recursion.poses()[i].dcm_WL * rotor.axis_L;
+    const Vector3d axis = motion.poses[i].dcm_WL * rotor.axis_L;
     const double spin = rotor.spin_inertia * rotor_speed[k];
     totals.H_PntC_B += spin * axis;
     totals.H_scale += std::abs(spin);
-    totals.kinetic += spin * (axis.dot(rates[i].omega_LN_W) + 0.5 * rotor_speed[k]);
+    totals.kinetic += spin * (axis.dot(motion.rates[i].omega_LN_W) + 0.5 * rotor_speed[k]);
   }
   return totals;
 }
 
 // All totals are sums over elements, scaled by their masses, but for the motion of C; and at fixed
 // motion that drops out of H, because neither sum of m (r - r_C) nor of m (v - v_C) is anything.
-Leaving sum_up_leaving(Recursion& recursion, const Assembly& assembly,
-                       std::span<const double> q_dot, std::span<const double> share_rates,
-                       const Totals& totals) {
-  std::vector<LinkRate> rates(assembly.links.size());
-  recursion.rates(q_dot, rates);
+Leaving sum_up_leaving(const Motion& motion, const Assembly& assembly,
+                       std::span<const double> share_rates, const Totals& totals) {
   const Vector3d v_C = totals.momentum_B / totals.mass;
   Leaving leaving;
-  for (const MovingElement& e : moving_elements(recursion, assembly, share_rates, 0.0, rates)) {
+  for (const MovingElement& e : moving_elements(motion, assembly, share_rates, 0.0)) {
     leaving.mass += e.mass;
     leaving.momentum_B += e.mass * e.v_E;
     leaving.H_PntC_B += (e.r_EB - totals.r_CB_B).cross(e.mass * (e.v_E - v_C)) + e.spin;
@@ -127,8 +120,7 @@ double motor_power(std::span<const double> rotor_speed, std::span<const double> 
   return power;
 }
 
-Eigen::MatrixXd dense_mass_matrix(Recursion& recursion, const Matrix3d& dcm_NB) {
-  const Tree& tree = recursion.tree();
+Eigen::MatrixXd dense_mass_matrix(const Tree& tree, const Motion& motion, const Matrix3d& dcm_NB) {
   const auto links = static_cast<Eigen::Index>(tree.links.size());
   const auto rotors = static_cast<Eigen::Index>(tree.rotors.size());
   const Eigen::Index n = 5 + links + rotors;
@@ -143,8 +135,8 @@ Eigen::MatrixXd dense_mass_matrix(Recursion& recursion, const Matrix3d& dcm_NB) 
     const auto k = static_cast<std::size_t>(i);
     const LinkConstants& link = tree.links[k];
     const auto p = static_cast<std::size_t>(link.parent);
-    const Vector3d d = recursion.poses()[k].r_LB_W - recursion.poses()[p].r_LB_W;
-    const Vector3d axis = recursion.poses()[p].dcm_WL * link.axis_P;
+    const Vector3d d = motion.poses[k].r_LB_W - motion.poses[p].r_LB_W;
+    const Vector3d axis = motion.poses[p].dcm_WL * link.axis_P;
     omega[k] = omega[p];
     v[k] = v[p] - tilde(d) * omega[p];
     (link.kind == JointKind::kHinge ? omega : v)[k].col(5 + i) += axis;
@@ -153,15 +145,15 @@ Eigen::MatrixXd dense_mass_matrix(Recursion& recursion, const Matrix3d& dcm_NB) 
   Eigen::MatrixXd M = Eigen::MatrixXd::Zero(n, n);
   for (std::size_t i = 0; i < tree.links.size(); ++i) {
     const LinkConstants& link = tree.links[i];
-    const Matrix3d& dcm = recursion.poses()[i].dcm_WL;
+    const Matrix3d& dcm = motion.poses[i].dcm_WL;
     const Eigen::MatrixXd coupling = omega[i].transpose() * tilde(dcm * link.first_moment) * v[i];
     M += link.mass * v[i].transpose() * v[i] + coupling + coupling.transpose() +
-         omega[i].transpose() * link.J_L.turned(dcm).full() * omega[i];
+         omega[i].transpose() * (dcm * link.J_L * dcm.transpose()) * omega[i];
   }
   for (Eigen::Index k = 0; k < rotors; ++k) {
     const RotorConstants& rotor = tree.rotors[static_cast<std::size_t>(k)];
     const auto i = static_cast<std::size_t>(rotor.link);
-    Eigen::RowVectorXd spin = (recursion.poses()[i].dcm_WL * rotor.axis_L).transpose() * omega[i];
+    Eigen::RowVectorXd spin = (motion.poses[i].dcm_WL * rotor.axis_L).transpose() * omega[i];
     spin[5 + links + k] += 1.0;
     M += rotor.spin_inertia * spin.transpose() * spin;
   }

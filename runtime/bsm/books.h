@@ -2,7 +2,7 @@
 // Nothing here runs inside a step. Tested by tests/runtime/bsm_test.cpp.
 #pragma once
 
-#include "runtime/bsm/recursion.h"
+#include "runtime/bsm/motion.h"
 #include "runtime/observation.h"
 
 namespace twincraft::bsm {
@@ -17,9 +17,9 @@ struct Totals {
   double momentum_scale = 0.0, H_scale = 0.0;  // sums of magnitudes
 };
 
-/// @param shares  of every tank. @pre recursion.move() was called for this instant
-Totals sum_up(Recursion& recursion, const Assembly& assembly, std::span<const double> shares,
-              std::span<const double> q_dot, std::span<const double> rotor_speed);
+/// @param shares  of every tank
+Totals sum_up(const Motion& motion, const Assembly& assembly, std::span<const double> shares,
+              std::span<const double> rotor_speed);
 
 /// What leaves the books because mass leaves the vehicle: their rates at fixed motion. The velocity
 /// of B is taken as zero here too.
@@ -30,10 +30,9 @@ struct Leaving {
   double kinetic = 0.0;                    // [W] relative to B
 };
 
-/// @param share_rates  of every tank [1/s]. @pre as for sum_up, of which these are the totals
-Leaving sum_up_leaving(Recursion& recursion, const Assembly& assembly,
-                       std::span<const double> q_dot, std::span<const double> share_rates,
-                       const Totals& totals);
+/// @param share_rates  of every tank [1/s]  @param totals  of the same motion
+Leaving sum_up_leaving(const Motion& motion, const Assembly& assembly,
+                       std::span<const double> share_rates, const Totals& totals);
 
 /// Centre of mass, momenta and kinetic energy in N; needs o.r_BN_N and o.v_BN_N.
 void fill_books(const Totals& totals, const Matrix3d& dcm_NB, Observation& o);
@@ -45,6 +44,6 @@ double joint_power(const Tree& tree, std::span<const double> q, std::span<const 
 double motor_power(std::span<const double> rotor_speed, std::span<const double> torque);  // [W]
 
 /// Over (v_B in N, omega in B, qDot, wheel speeds), summed from partial velocities.
-Eigen::MatrixXd dense_mass_matrix(Recursion& recursion, const Matrix3d& dcm_NB);
+Eigen::MatrixXd dense_mass_matrix(const Tree& tree, const Motion& motion, const Matrix3d& dcm_NB);
 
 }  // namespace twincraft::bsm

@@ -1,10 +1,13 @@
-// See engine.h: the state vector around the recursion. Tested by tests/runtime/bsm_test.cpp.
+// See engine.h: the state vector around the kernel. Tested by tests/runtime/bsm_test.cpp.
 #include "runtime/bsm/engine.h"
+
+#include <limits>
 
 #include "runtime/bsm/attitude.h"
 #include "runtime/bsm/books.h"
+#include "runtime/bsm/kernel.h"
+#include "runtime/bsm/motion.h"
 #include "runtime/bsm/point_mass_engine.h"
-#include "runtime/bsm/recursion.h"
 #include "runtime/forces/propellant_ledger.h"
 
 namespace twincraft {
@@ -17,23 +20,23 @@ std::vector<std::vector<MassElement>> elements_of(const Assembly& assembly) {
   return elements;
 }
 
-template <class Chart>
+Vector3d three(std::span<const double> values, int at) { return Vector3d::Map(values.data() + at); }
+
 class BsmEngine final : public Engine {
  public:
-  BsmEngine(const Model& model, AttitudeChart chart)
+  BsmEngine(const Model& model, InstructionSet set)
       : assembly_(model.assembly),
         initial_(model.initial),
-        recursion_(model.assembly, model.engines.chains == ChainPath::kGeneral
-                                       ? bsm::Chains::kGeneral
-                                       : bsm::Chains::kPlanar),
+        loads_(model.loads),
         propellant_(model.tanks),
         shares_(propellant_.shares(0.0)),
         forces_(model, model.gravity.bsm, elements_of(model.assembly), FieldFrame::kFalling),
-        layout_{chart, static_cast<int>(model.assembly.links.size()) - 1,
+        layout_{model.engines.attitude, static_cast<int>(model.assembly.links.size()) - 1,
                 static_cast<int>(model.assembly.rotors.size())},
-        effort_(static_cast<std::size_t>(layout_.joints)),
-        motor_torque_(static_cast<std::size_t>(layout_.wheels)),
-        wrenches_(model.assembly.links.size()) {
+        held_(HeldInputs::none(model.assembly)),
+        plan_(make_plan(model.assembly, model.engines.attitude, model.gravity, model.loads,
+                        model.engines.chains)),
+        kernel_(make_kernel(plan_, set)) {
     hold_inputs(0.0);
   }
 
@@ -44,7 +47,12 @@ class BsmEngine final : public Engine {
     Eigen::VectorXd state(layout_.size());
     state.segment<3>(StateLayout::position()) = initial_.r_BN_N;
     state.segment<3>(StateLayout::velocity()) = initial_.v_BN_N;
-    state.segment<kAttitude>(StateLayout::attitude()) = Chart::from(initial_.q_BN);
+    if (layout_.chart == AttitudeChart::kMrp) {
+      state.segment<3>(StateLayout::attitude()) = mrp_from(initial_.q_BN);
+    } else {
+      const Quaterniond& q = initial_.q_BN;
+      state.segment<4>(StateLayout::attitude()) << q.w(), q.x(), q.y(), q.z();
+    }
     state.segment<3>(layout_.rate()) = initial_.omega_BN_B;
     const auto put = [&state](int at, const std::vector<double>& values) {
       for (std::size_t i = 0; i < values.size(); ++i) state[at + static_cast<int>(i)] = values[i];
@@ -56,111 +64,26 @@ class BsmEngine final : public Engine {
   }
 
   void hold_inputs(double time) override {
-    for (std::size_t i = 0; i < effort_.size(); ++i) {
-      effort_[i] = assembly_.links[i + 1].joint.effort.at(time);
-    }
-    for (std::size_t k = 0; k < motor_torque_.size(); ++k) {
-      motor_torque_[k] = assembly_.rotors[k].torque.at(time);
-    }
+    held_.set(assembly_, loads_, time);
     forces_.hold(time);
     propellant_.hold(time);
+    const Plan* plan = &plan_;
+    const HeldInputs* held = &held_;
+    kernel_->hold({&plan, 1}, {&held, 1});
+    drained_to_ = std::numeric_limits<double>::quiet_NaN();
     drain(time);
   }
 
   void derivative(double time, std::span<const double> state, std::span<double> rate) override {
-    const State x = read(state);
     drain(time);
-    recursion_.move(x.q, x.q_dot, x.omega_BN_B, x.rotor_speed);
-    Vector3d g_B = Vector3d::Zero();
-    if (!forces_.is_silent()) {
-      g_B = forces_.apply(x.dcm_NB.transpose() * x.r_BN_N, recursion_.poses(), wrenches_);
-    }
-    recursion_.accelerate(x.q, x.q_dot, {effort_, motor_torque_}, acting_wrenches(),
-                          block(rate, layout_.joint_rate(), layout_.joints),
-                          block(rate, layout_.wheel(), layout_.wheels));
-    vector(rate, StateLayout::position()) = x.v_BN_N;
-    vector(rate, StateLayout::velocity()) = x.dcm_NB * (recursion_.a_BN_B() + g_B);
-    Attitude(rate.data() + StateLayout::attitude()) = Chart::rate(x.attitude, x.omega_BN_B);
-    vector(rate, layout_.rate()) = recursion_.omega_dot_BN_B();
-    std::copy(x.q_dot.begin(), x.q_dot.end(), rate.begin() + layout_.joint());
+    kernel_->derivative(state.data(), rate.data());
   }
 
-  void finish_step(std::span<double> state) override {
-    Attitude attitude(state.data() + StateLayout::attitude());
-    attitude = Chart::regular(attitude.eval());
-  }
+  void finish_step(std::span<double> state) override { kernel_->finish_step(state.data()); }
 
   Observation observe(double time, std::span<const double> state) override {
+    drain_all(time);
     const State x = read(state);
-    drain(time);
-    recursion_.move(x.q, x.q_dot, x.omega_BN_B, x.rotor_speed);
-    Observation o = books(time, x);
-    o.q_BN = Chart::quaternion(x.attitude);
-    if (o.q_BN.w() < 0.0) o.q_BN.coeffs() = -o.q_BN.coeffs();
-    return o;
-  }
-
-  ExternalRates external_rates(double time, std::span<const double> state) override {
-    const State x = read(state);
-    drain(time);
-    recursion_.move(x.q, x.q_dot, x.omega_BN_B, x.rotor_speed);
-    return outside(x);
-  }
-
-  Eigen::MatrixXd mass_matrix(std::span<const double> state) override {
-    const State x = read(state);
-    recursion_.move(x.q, x.q_dot, x.omega_BN_B, x.rotor_speed);
-    return dense_mass_matrix(recursion_, x.dcm_NB);
-  }
-
- private:
-  static constexpr int kAttitude = Chart::Coordinates::SizeAtCompileTime;
-  using Attitude = Eigen::Map<typename Chart::Coordinates>;
-
-  struct State {
-    Vector3d r_BN_N, v_BN_N, omega_BN_B;
-    typename Chart::Coordinates attitude;
-    Matrix3d dcm_NB;
-    std::span<const double> q, q_dot, rotor_speed;
-  };
-
-  static Eigen::Map<Vector3d> vector(std::span<double> values, int at) {
-    return Eigen::Map<Vector3d>(values.data() + at);
-  }
-  template <class T>
-  static std::span<T> block(std::span<T> values, int at, int size) {
-    return values.subspan(static_cast<std::size_t>(at), static_cast<std::size_t>(size));
-  }
-
-  State read(std::span<const double> state) const {
-    const auto three = [&state](int at) {
-      return Vector3d(Eigen::Map<const Vector3d>(state.data() + at));
-    };
-    const typename Chart::Coordinates attitude =
-        Eigen::Map<const typename Chart::Coordinates>(state.data() + StateLayout::attitude());
-    return {three(StateLayout::position()),
-            three(StateLayout::velocity()),
-            three(layout_.rate()),
-            attitude,
-            Chart::dcm_NB(attitude),
-            block(state, layout_.joint(), layout_.joints),
-            block(state, layout_.joint_rate(), layout_.joints),
-            block(state, layout_.wheel(), layout_.wheels)};
-  }
-
-  /// Everything that depends on mass follows the tanks.
-  void drain(double time) {
-    if (propellant_.is_idle()) return;
-    shares_ = propellant_.shares(time);
-    recursion_.set_shares(shares_);
-    forces_.set_shares(shares_);
-  }
-
-  std::span<const Wrench> acting_wrenches() const {
-    return forces_.is_idle() ? std::span<const Wrench>{} : wrenches_;
-  }
-
-  Observation books(double time, const State& x) {
     Observation o;
     o.time = time;
     o.r_BN_N = x.r_BN_N;
@@ -169,68 +92,114 @@ class BsmEngine final : public Engine {
     o.joint_position.assign(x.q.begin(), x.q.end());
     o.joint_rate.assign(x.q_dot.begin(), x.q_dot.end());
     o.wheel_rate.assign(x.rotor_speed.begin(), x.rotor_speed.end());
-    const Totals totals = sum_up(recursion_, assembly_, shares_, x.q_dot, x.rotor_speed);
-    fill_books(totals, x.dcm_NB, o);
-    o.potential = spring_energy(recursion_.tree(), x.q) +
-                  forces_.potential(x.dcm_NB.transpose() * x.r_BN_N, recursion_.poses());
+    const Motion motion = motion_of(plan_.tree, x.q, x.q_dot, x.omega_BN_B);
+    fill_books(sum_up(motion, assembly_, shares_, x.rotor_speed), x.dcm_NB, o);
+    o.potential = spring_energy(plan_.tree, x.q) +
+                  forces_.potential(x.dcm_NB.transpose() * x.r_BN_N, motion.poses);
+    o.q_BN = x.q_BN;
+    if (o.q_BN.w() < 0.0) o.q_BN.coeffs() = -o.q_BN.coeffs();
     return o;
   }
 
-  ExternalRates outside(const State& x) {
-    const Totals totals = sum_up(recursion_, assembly_, shares_, x.q_dot, x.rotor_speed);
+  ExternalRates external_rates(double time, std::span<const double> state) override {
+    drain_all(time);
+    const State x = read(state);
+    Motion motion = motion_of(plan_.tree, x.q, x.q_dot, x.omega_BN_B);
+    const Totals totals = sum_up(motion, assembly_, shares_, x.rotor_speed);
     const Vector3d r_BN_B = x.dcm_NB.transpose() * x.r_BN_N;
-    std::fill(wrenches_.begin(), wrenches_.end(), Wrench{});
-    const Vector3d g_B = forces_.apply(r_BN_B, recursion_.poses(), wrenches_);
-    Vector3d force_B = totals.mass * g_B;
+    const Vector3d v_BN_B = x.dcm_NB.transpose() * x.v_BN_N;
+    std::vector<Wrench> wrenches(motion.poses.size());
+    forces_.apply(r_BN_B, motion.poses, wrenches);
+    const Vector3d g_N = forces_.fall(x.r_BN_N, x.dcm_NB, motion.poses);
+    Vector3d force_B = Vector3d::Zero();
     Vector3d torque_PntC_B = Vector3d::Zero();
-    for (const Wrench& wrench : wrenches_) {
+    for (const Wrench& wrench : wrenches) {
       force_B += wrench.force_W;
       torque_PntC_B += wrench.torque_PntB_W - totals.r_CB_B.cross(wrench.force_W);
     }
-    std::vector<LinkRate> rates(wrenches_.size());
-    recursion_.rates(x.q_dot, rates);
-    for (LinkRate& rate : rates) rate.v_LN_W += x.dcm_NB.transpose() * x.v_BN_N;
-    const double power = joint_power(recursion_.tree(), x.q, x.q_dot, effort_) +
-                         motor_power(x.rotor_speed, motor_torque_) +
-                         forces_.power(r_BN_B, recursion_.poses(), rates);
-    ExternalRates rates_outside{power, x.dcm_NB * force_B, x.dcm_NB * torque_PntC_B};
-    if (!propellant_.is_idle()) add_leaving(x, totals, rates_outside);
-    return rates_outside;
+    double power = joint_power(plan_.tree, x.q, x.q_dot, held_.effort) +
+                   motor_power(x.rotor_speed, held_.motor_torque);
+    Leaving leaving;
+    if (!propellant_.is_idle()) {
+      const std::span<const double> share_rates = propellant_.share_rates();
+      leaving = sum_up_leaving(motion, assembly_, share_rates, totals);
+      power += leaving.kinetic + leaving.momentum_B.dot(v_BN_B) +
+               0.5 * leaving.mass * v_BN_B.squaredNorm() +
+               forces_.potential_rate(r_BN_B, motion.poses, share_rates);
+    }
+    for (LinkRate& rate : motion.rates) rate.v_LN_W += v_BN_B;
+    power += forces_.power(r_BN_B, motion.poses, motion.rates);
+    return {power,
+            x.dcm_NB * (force_B + leaving.momentum_B) + totals.mass * g_N + leaving.mass * x.v_BN_N,
+            x.dcm_NB * (torque_PntC_B + leaving.H_PntC_B)};
   }
 
-  /// Propellant takes its own energy and momentum along.
-  void add_leaving(const State& x, const Totals& totals, ExternalRates& rates) {
-    const std::span<const double> share_rates = propellant_.share_rates();
-    const Leaving leaving = sum_up_leaving(recursion_, assembly_, x.q_dot, share_rates, totals);
-    const Vector3d v_BN_B = x.dcm_NB.transpose() * x.v_BN_N;
-    rates.power +=
-        leaving.kinetic + leaving.momentum_B.dot(v_BN_B) +
-        0.5 * leaving.mass * v_BN_B.squaredNorm() +
-        forces_.potential_rate(x.dcm_NB.transpose() * x.r_BN_N, recursion_.poses(), share_rates);
-    rates.force_N += x.dcm_NB * leaving.momentum_B + leaving.mass * x.v_BN_N;
-    rates.torque_PntC_N += x.dcm_NB * leaving.H_PntC_B;
+  Eigen::MatrixXd mass_matrix(std::span<const double> state) override {
+    const State x = read(state);
+    return dense_mass_matrix(plan_.tree, motion_of(plan_.tree, x.q, x.q_dot, x.omega_BN_B),
+                             x.dcm_NB);
+  }
+
+ private:
+  struct State {
+    Vector3d r_BN_N, v_BN_N, omega_BN_B;
+    Quaterniond q_BN;
+    Matrix3d dcm_NB;
+    std::span<const double> q, q_dot, rotor_speed;
+  };
+
+  State read(std::span<const double> state) const {
+    const auto block = [&state](int at, int size) {
+      return state.subspan(static_cast<std::size_t>(at), static_cast<std::size_t>(size));
+    };
+    const double* attitude = state.data() + StateLayout::attitude();
+    const Quaterniond q_BN =
+        layout_.chart == AttitudeChart::kMrp
+            ? quaternion_from(Vector3d::Map(attitude))
+            : Quaterniond(attitude[0], attitude[1], attitude[2], attitude[3]).normalized();
+    return {three(state, StateLayout::position()),
+            three(state, StateLayout::velocity()),
+            three(state, layout_.rate()),
+            q_BN,
+            q_BN.toRotationMatrix(),
+            block(layout_.joint(), layout_.joints),
+            block(layout_.joint_rate(), layout_.joints),
+            block(layout_.wheel(), layout_.wheels)};
+  }
+
+  /// What depends on mass follows the tanks: in a step the kernel alone, else all.
+  void drain(double time) {
+    if (propellant_.is_idle() || time == drained_to_) return;
+    drained_to_ = time;
+    shares_ = propellant_.shares(time);
+    plan_.set_shares(shares_);
+    const Plan* plan = &plan_;
+    kernel_->set_masses({&plan, 1});
+  }
+  void drain_all(double time) {
+    drain(time);
+    if (!propellant_.is_idle()) forces_.set_shares(shares_);
   }
 
   Assembly assembly_;
   InitialState initial_;
-  Recursion recursion_;
+  std::vector<Load> loads_;
   PropellantLedger propellant_;
   std::span<const double> shares_;
+  double drained_to_ = 0.0;  // [s] the time the kernel's masses are of; NaN: of none
   ForceModel forces_;
   StateLayout layout_;
-  std::vector<double> effort_, motor_torque_;
-  std::vector<Wrench> wrenches_;
+  HeldInputs held_;
+  Plan plan_;
+  std::unique_ptr<Kernel> kernel_;
 };
 
 }  // namespace
 }  // namespace bsm
 
-std::unique_ptr<Engine> make_bsm_engine(const Model& model) {
+std::unique_ptr<Engine> make_bsm_engine(const Model& model, bsm::InstructionSet set) {
   if (model.simulation.translation) return bsm::make_point_mass_engine(model);
-  if (model.engines.attitude == AttitudeChart::kMrp) {
-    return std::make_unique<bsm::BsmEngine<bsm::MrpChart>>(model, AttitudeChart::kMrp);
-  }
-  return std::make_unique<bsm::BsmEngine<bsm::QuaternionChart>>(model, AttitudeChart::kQuaternion);
+  return std::make_unique<bsm::BsmEngine>(model, set);
 }
 
 }  // namespace twincraft

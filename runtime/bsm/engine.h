@@ -1,13 +1,15 @@
-// The analytic engine: back-substitution as a recursion over the tree. See recursion.h for the
+// The analytic engine: back-substitution as a recursion over the tree. See law.h for the
 // equations. Tested by tests/runtime/bsm_test.cpp and the component battery.
 #pragma once
 
 #include <memory>
 
+#include "runtime/bsm/kernel.h"
 #include "runtime/engine.h"
 
 namespace twincraft {
 
-std::unique_ptr<Engine> make_bsm_engine(const Model& model);
+std::unique_ptr<Engine> make_bsm_engine(const Model& model,
+                                        bsm::InstructionSet set = bsm::best_instruction_set());
 
 }  // namespace twincraft

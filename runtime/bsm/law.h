@@ -1,16 +1,54 @@
-// The force and torque law of a subtree about its origin; see recursion.h for its equations.
-// Tested by tests/runtime/bsm_test.cpp.
+// Back-substitution as a recursion over the tree: every body is the hub of its children.
+//
+// All vectors are in hub axes. For each link, about its own origin (its joint H), the force f and
+// torque n that its parent must supply are linear in the accelerations of that point:
+//     n = J omegaDot + H  a + n0          [J H; H^T M] symmetric, 6x6
+//     f = H^T omegaDot + M a + f0
+// For a bare rigid link J is its inertia about H, H = m c~, M = m 1, and
+//     n0 = omega x (J omega + h) + u_rotors,  f0 = omega x (omega x m c)
+// with h the momentum of its rotors (gyrostat).
+//
+//   leaf -> hub   eliminate the joint's own acceleration from s.n = u (hinge) or s.f = u (slide),
+//                 move what is left to the parent's origin, add it to the parent      (limb.h)
+//   hub           solve 6x6: Schur complement of M, two 3x3 blocks                 (vehicle.h)
+//   hub -> leaf   each joint recovers its acceleration from its parent's
+//
+// One effector on the hub gives the published contributions A, B, C, D, vT, vR. Tails of the tree
+// whose hinges are parallel take the same steps in the plane (chain.h). Rates enter only through
+// omega and offsets between neighbouring joints, so neither the orbital velocity nor the distance
+// to the hub ever costs a digit. Gravity is felt in a frame that falls with the hub (field.h).
+// Tested by tests/runtime/bsm_test.cpp (dense oracle, published blocks).
 #pragma once
 
-#include "runtime/bsm/sym3.h"
+#include "runtime/bsm/linear.h"
 
-namespace twincraft::bsm {
+namespace twincraft::bsm::TWINCRAFT_KERNEL {
 
-/// n = J omegaDot + H a + n0,  f = H^T omegaDot + M a + f0
+/// The force and torque a subtree asks of its parent, about its origin.
+///   n = J omegaDot + H a + n0,  f = H^T omegaDot + M a + f0
+template <class S>
 struct Law {
-  Sym3 J, M;        // [kg m^2], [kg]
-  Matrix3d H;       // [kg m]
-  Vector3d n0, f0;  // [N m], [N]
+  Sym<S> J, M;    // [kg m^2], [kg]
+  Mat<S> H;       // [kg m]
+  Vec<S> n0, f0;  // [N m], [N]
+
+  /// Add a child's law, moved to the parent's origin, d away: a' = a_P + omegaDot_P x d and
+  /// n_P = n + d x f give H_P = H + d~ M and J_P = J + Z + Z^T with Z^T = (H + d~ M / 2) d~^T.
+  void add_moved(const Law& child, const Vec<S>& d) {
+    const Mat<S> K{cross(d, child.M.column_x()), cross(d, child.M.column_y()),
+                   cross(d, child.M.column_z())};
+    Mat<S> G = K;
+    G.x = child.H.x + S(0.5) * K.x;
+    G.y = child.H.y + S(0.5) * K.y;
+    G.z = child.H.z + S(0.5) * K.z;
+    J += child.J;
+    J.add_twice_symmetric({cross(d, G.row_x()), cross(d, G.row_y()), cross(d, G.row_z())});
+    H += child.H;
+    H += K;
+    M += child.M;
+    n0 += child.n0 + cross(d, child.f0);
+    f0 += child.f0;
+  }
 };
 
-}  // namespace twincraft::bsm
+}  // namespace twincraft::bsm::TWINCRAFT_KERNEL

@@ -28,7 +28,7 @@ void prepare_joint(const Joint& joint, LinkConstants& link) {
 void add(const MassElement& element, MassSums& sums) {
   sums.mass += element.mass;
   sums.first_moment += element.mass * element.r_EL_L;
-  sums.J_L += Sym3::from(parallel_axis(element.I_PntE_L, element.mass, element.r_EL_L));
+  sums.J_L += parallel_axis(element.I_PntE_L, element.mass, element.r_EL_L);
 }
 
 void put(const MassSums& sums, LinkConstants& link) {
@@ -48,7 +48,7 @@ MassSums& part_of(std::size_t tank, Draining& draining) {
 void prepare_mass(const Link& link, std::size_t index, const Matrix3d& rotor_inertia, Tree& tree) {
   Draining draining;
   draining.link = index;
-  draining.fixed.J_L = Sym3::from(-rotor_inertia);
+  draining.fixed.J_L = -rotor_inertia;
   for (const MassElement& element : link.elements) {
     add(element, element.tank < 0 ? draining.fixed
                                   : part_of(static_cast<std::size_t>(element.tank), draining));

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "compiler/ir/assembly.h"
-#include "runtime/bsm/sym3.h"
 
 namespace twincraft::bsm {
 
@@ -28,7 +27,7 @@ struct LinkConstants {
   Vector3d first_moment;  // [kg m] mass times the centre of mass from the link's origin, link axes
   // About the link's origin, link axes, without the axial inertia of its rotors: the part of the
   // angular momentum that follows the link. Full inertia = J_L + sum Js g g^T.
-  Sym3 J_L;  // [kg m^2]
+  Matrix3d J_L;  // [kg m^2]
 };
 
 struct RotorConstants {
@@ -41,7 +40,7 @@ struct RotorConstants {
 struct MassSums {
   double mass = 0.0;                         // [kg]
   Vector3d first_moment = Vector3d::Zero();  // [kg m]
-  Sym3 J_L;                                  // [kg m^2]
+  Matrix3d J_L = Matrix3d::Zero();           // [kg m^2]
 
   void add(double share, const MassSums& part) {
     mass += share * part.mass;

@@ -129,16 +129,19 @@ void ForceModel::apply_loads(std::span<const LinkPose> links, std::span<Wrench> 
   }
 }
 
-Vector3d ForceModel::apply(const Vector3d& r_BN_W, std::span<const LinkPose> links,
-                           std::span<Wrench> wrenches) const {
-  if (!is_idle()) {
-    std::fill(wrenches.begin(), wrenches.end(), Wrench{});
-    if (gravity_acts_) apply_gravity(r_BN_W, links, wrenches);
-    apply_loads(links, wrenches);
-  }
+void ForceModel::apply(const Vector3d& r_BN_W, std::span<const LinkPose> links,
+                       std::span<Wrench> wrenches) const {
+  if (is_idle()) return;
+  std::fill(wrenches.begin(), wrenches.end(), Wrench{});
+  if (gravity_acts_) apply_gravity(r_BN_W, links, wrenches);
+  apply_loads(links, wrenches);
+}
+
+Vector3d ForceModel::fall(const Vector3d& r_BN_N, const Matrix3d& dcm_NW,
+                          std::span<const LinkPose> links) const {
   if (law_ == GravityLaw::kNone || frame_ == FieldFrame::kInertial) return Vector3d::Zero();
-  if (is_per_body(law_)) return point_gravity(mu_, r_BN_W);
-  return point_gravity(mu_, r_BN_W + center_of_mass(links));
+  if (is_per_body(law_)) return point_gravity(mu_, r_BN_N);
+  return point_gravity(mu_, r_BN_N + dcm_NW * center_of_mass(links));
 }
 
 double ForceModel::potential(const Vector3d& r_BN_W, std::span<const LinkPose> links) const {

@@ -52,10 +52,15 @@ class ForceModel {
   /// Not even that: apply() is not worth calling.
   bool is_silent() const { return law_ == GravityLaw::kNone && is_idle(); }
 
-  /// Set the wrench of every link, unless idle. @return the common acceleration [m/s^2] of the
-  /// falling frame in W, to be added to the hub's; zero in the inertial frame or without gravity.
-  Vector3d apply(const Vector3d& r_BN_W, std::span<const LinkPose> links,
-                 std::span<Wrench> wrenches) const;
+  /// Set the wrench of every link, unless idle.
+  void apply(const Vector3d& r_BN_W, std::span<const LinkPose> links,
+             std::span<Wrench> wrenches) const;
+
+  /// The common acceleration [m/s^2] of the falling frame in N, to be added to the hub's; zero in
+  /// the inertial frame or without gravity. In N because turning a vector of orbital size into W
+  /// and back would cost its last digit.
+  Vector3d fall(const Vector3d& r_BN_N, const Matrix3d& dcm_NW,
+                std::span<const LinkPose> links) const;
 
   /// Of gravity [J]: -sum mu m/r; of the total mass at C for kSystemCom.
   double potential(const Vector3d& r_BN_W, std::span<const LinkPose> links) const;

@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -106,7 +107,7 @@ class MujocoEngine final : public Engine {
   MotionSums move_to(std::span<const double> state);
   void gather_poses();
   void gather_rates(const Vector3d& v_BN_N);
-  Vector3d project_forces(const Vector3d& r_BN_W);
+  Vector3d project_forces(const Vector3d& r_BN_N, const Matrix3d& dcm_NW);
   double joint_power() const;
 
   Assembly assembly_;
@@ -119,6 +120,7 @@ class MujocoEngine final : public Engine {
   TreeMap map_;
   PassiveJoints passive_;
   PropellantLedger propellant_;
+  double drained_to_ = 0.0;  // [s] the time the masses are of; NaN: of none
   DrainingBodies draining_;
   WrenchProjector projector_;
   ForceModel forces_;
@@ -172,11 +174,13 @@ void MujocoEngine::hold_inputs(double time) {
   }
   forces_.hold(time);
   propellant_.hold(time);
+  drained_to_ = std::numeric_limits<double>::quiet_NaN();
   drain(time);
 }
 
 void MujocoEngine::drain(double time) {
-  if (propellant_.is_idle()) return;
+  if (propellant_.is_idle() || time == drained_to_) return;
+  drained_to_ = time;
   const std::span<const double> shares = propellant_.shares(time);
   draining_.set_shares(shares, *model_);
   forces_.set_shares(shares);
@@ -193,9 +197,9 @@ void MujocoEngine::derivative(double time, std::span<const double> state, std::s
   mj_kinematics(m, d);
   mj_comPos(m, d);
   const double* applied = inputs_.data();
-  Vector3d fall_W = Vector3d::Zero();
+  Vector3d fall_N = Vector3d::Zero();
   if (law_ != GravityLaw::kNone || !forces_.is_idle()) {
-    fall_W = project_forces(dcm_NW.transpose() * Input(state.data() + StateLayout::position()));
+    fall_N = project_forces(Input(state.data() + StateLayout::position()), dcm_NW);
     applied = applied_.data();
   }
   mj_crb(m, d);
@@ -205,7 +209,7 @@ void MujocoEngine::derivative(double time, std::span<const double> state, std::s
   passive_.apply(*d);
   for (int i = 0; i < m->nv; ++i) d->qacc[i] = d->qfrc_passive[i] - d->qfrc_bias[i] + applied[i];
   mj_solveM(m, d, d->qacc, d->qacc, 1);
-  const double sum = take_back(state.data(), dcm_NW * (Input(d->qacc) + fall_W), rate.data());
+  const double sum = take_back(state.data(), dcm_NW * Input(d->qacc) + fall_N, rate.data());
   // A singular mass matrix only warns, and MuJoCo goes on with a made-up pivot.
   if (!std::isfinite(sum) || d->warning[mjWARN_INERTIA].number > 0) fail(time, state, rate);
 }
@@ -300,13 +304,15 @@ void MujocoEngine::gather_poses() {
   }
 }
 
-// Sets applied_. @return the common acceleration of the falling frame
-Vector3d MujocoEngine::project_forces(const Vector3d& r_BN_W) {
+// Sets applied_. @return the common acceleration of the falling frame, in N
+Vector3d MujocoEngine::project_forces(const Vector3d& r_BN_N, const Matrix3d& dcm_NW) {
   gather_poses();
   std::copy(inputs_.begin(), inputs_.end(), applied_.begin());
-  const Vector3d fall = forces_.apply(r_BN_W, poses_, wrenches_);
-  if (!forces_.is_idle()) projector_.add(*model_, *data_, wrenches_, applied_);
-  return fall;
+  if (!forces_.is_idle()) {
+    forces_.apply(dcm_NW.transpose() * r_BN_N, poses_, wrenches_);
+    projector_.add(*model_, *data_, wrenches_, applied_);
+  }
+  return forces_.fall(r_BN_N, dcm_NW, poses_);
 }
 
 // The vehicle at `state`, centred in any frame: what is observed is not what is tested.
@@ -356,13 +362,14 @@ ExternalRates MujocoEngine::external_rates(double time, std::span<const double> 
   ExternalRates rates;
   rates.power = joint_power() + forces_.power(r_BN_N, poses_, link_rates_);
   std::ranges::fill(wrenches_, Wrench{});
-  const Vector3d fall = forces_.apply(r_BN_N, poses_, wrenches_);
+  forces_.apply(r_BN_N, poses_, wrenches_);
   for (const Wrench& wrench : wrenches_) {
     rates.force_N += wrench.force_W;
     rates.torque_PntC_N += wrench.torque_PntB_W;
   }
   rates.torque_PntC_N -= sums.r_CB_N.cross(rates.force_N);
-  rates.force_N += sums.mass * fall;  // acts at C
+  // What falls does so at C.
+  rates.force_N += sums.mass * forces_.fall(r_BN_N, Matrix3d::Identity(), poses_);
   if (!propellant_.is_idle()) add_leaving(r_BN_N, v_BN_N, sums, rates);
   return rates;
 }

@@ -9,7 +9,7 @@
 #include "compiler/diag/print.h"
 #include "compiler/pipeline.h"
 #include "runtime/bsm/engine.h"
-#include "runtime/bsm/recursion.h"
+#include "runtime/bsm/plan.h"
 #include "runtime/mujoco/engine.h"
 #include "runtime/study/agreement.h"
 #include "runtime/study/conservation.h"
@@ -183,7 +183,10 @@ TEST_F(SameMachine, WrittenAsBodiesHasTheAccelerationsOfThePanels) {
 }
 
 TEST_F(SameMachine, WrittenAsBodiesTakesThePlanarPathInAnyOrder) {
-  EXPECT_EQ(bsm::Recursion(bodies_.model.assembly).planar_links(), 8u);
+  const Model& model = bodies_.model;
+  const bsm::Plan plan =
+      bsm::make_plan(model.assembly, model.engines.attitude, model.gravity, model.loads);
+  EXPECT_EQ(plan.planar_links(), 8u);
 }
 
 TEST_F(SameMachine, WrittenAsBodiesFliesAsThePanelsDo) {

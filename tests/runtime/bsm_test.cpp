@@ -6,61 +6,151 @@
 #include <cmath>
 
 #include "runtime/bsm/attitude.h"
+#include "runtime/bsm/charts.h"
 #include "runtime/bsm/engine.h"
-#include "runtime/bsm/recursion.h"
+#include "runtime/bsm/motion.h"
 #include "tests/support/allocation_counter.h"
-#include "tests/support/dense_oracle.h"
+#include "tests/support/kernel_of.h"
 
 namespace twincraft {
 namespace {
 
-using bsm::Recursion;
+using test::HubEquation;
+using test::inputs_of;
+using test::KernelOf;
 using test::OracleState;
 
-struct HeldInputs {
-  std::vector<double> effort, torque;
-  explicit HeldInputs(const Assembly& assembly) {
-    for (std::size_t i = 1; i < assembly.links.size(); ++i) {
-      effort.push_back(assembly.links[i].joint.effort.at(0.0));
-    }
-    for (const Rotor& rotor : assembly.rotors) torque.push_back(rotor.torque.at(0.0));
-  }
-};
+constexpr double kMu = 3.98600436e14;  // [m^3/s^2]
 
-Eigen::VectorXd recursive_accelerations(Recursion& recursion, const Assembly& assembly,
-                                        const OracleState& state,
-                                        const std::vector<Wrench>& wrenches) {
-  const HeldInputs inputs(assembly);
-  std::vector<double> q_ddot(state.q.size());
-  std::vector<double> rotor_rate(state.rotor_speed.size());
-  recursion.move(state.q, state.q_dot, state.omega_BN_B, state.rotor_speed);
-  recursion.accelerate(state.q, state.q_dot, {inputs.effort, inputs.torque}, wrenches, q_ddot,
-                       rotor_rate);
-  Eigen::VectorXd all(6 + q_ddot.size() + rotor_rate.size());
-  all << recursion.a_BN_B(), recursion.omega_dot_BN_B(),
-      Eigen::Map<Eigen::VectorXd>(q_ddot.data(), static_cast<Eigen::Index>(q_ddot.size())),
-      Eigen::Map<Eigen::VectorXd>(rotor_rate.data(), static_cast<Eigen::Index>(rotor_rate.size()));
-  return all;
+/// Random forces and torques on every link, in its axes and about its origin.
+bsm::HeldInputs pushed(const Assembly& assembly, std::mt19937_64& random) {
+  bsm::HeldInputs held = inputs_of(assembly);
+  for (Vector3d& force : held.force_L) force = test::random_vector(random, 1.0);
+  for (Vector3d& torque : held.torque_L) torque = test::random_vector(random, 1.0);
+  return held;
 }
 
-TEST(Recursion, EqualsTheDenseAssemblyOnRandomTrees) {
+TEST(Kernel, EqualsTheDenseAssemblyOnRandomTrees) {
   std::mt19937_64 random(3);
   for (int trial = 0; trial < 300; ++trial) {
     const Assembly assembly = test::random_assembly(random, trial % 12, trial % 4);
     const OracleState state = test::random_state(random, assembly);
-    Recursion recursion(assembly);
-    recursion.move(state.q, state.q_dot, state.omega_BN_B, state.rotor_speed);
-    std::vector<Vector3d> force_L, torque_L;
-    std::vector<Wrench> wrenches;
-    for (const LinkPose& pose : recursion.poses()) {
-      force_L.push_back(test::random_vector(random, 1.0));
-      torque_L.push_back(test::random_vector(random, 1.0));
-      const Vector3d force_B = pose.dcm_WL * force_L.back();
-      wrenches.push_back({force_B, pose.dcm_WL * torque_L.back() + pose.r_LB_W.cross(force_B)});
+    const bsm::HeldInputs held = pushed(assembly, random);
+    const Eigen::VectorXd dense =
+        test::dense_accelerations(assembly, state, held.force_L, held.torque_L);
+    KernelOf kernel(assembly, ChainPath::kGeneral);
+    EXPECT_LT((dense - kernel.accelerations(state, held)).norm(), 1e-11 * dense.norm())
+        << "trial " << trial;
+  }
+}
+
+/// The same limbs twice, of other masses, springs and places: they share lanes.
+Assembly with_twins(Assembly assembly, std::mt19937_64& random) {
+  std::uniform_real_distribution<double> uniform(0.5, 1.5);
+  const int links = static_cast<int>(assembly.links.size());
+  const std::vector<Rotor> rotors = assembly.rotors;
+  for (int i = 1; i < links; ++i) {
+    Link twin = assembly.links[static_cast<std::size_t>(i)];
+    if (twin.parent > 0) {
+      twin.parent += links - 1;
+    } else {
+      twin.joint.r_HP_P += test::random_vector(random, 0.5);
     }
-    const Eigen::VectorXd dense = test::dense_accelerations(assembly, state, force_L, torque_L);
-    const Eigen::VectorXd recursive = recursive_accelerations(recursion, assembly, state, wrenches);
-    EXPECT_LT((dense - recursive).norm(), 1e-11 * dense.norm()) << "trial " << trial;
+    twin.joint.stiffness *= uniform(random);
+    twin.joint.effort = Schedule::constant(uniform(random));
+    for (MassElement& element : twin.elements) {
+      const double scale = uniform(random);
+      element.mass *= scale;
+      element.I_PntE_L *= scale;
+    }
+    assembly.links.push_back(twin);
+  }
+  for (Rotor rotor : rotors) {
+    if (rotor.link > 0) rotor.link += links - 1;
+    assembly.rotors.push_back(rotor);
+  }
+  return assembly;
+}
+
+TEST(Kernel, EqualsTheDenseAssemblyOnTwinLimbs) {
+  std::mt19937_64 random(23);
+  for (int trial = 0; trial < 200; ++trial) {
+    const Assembly assembly =
+        with_twins(test::random_assembly(random, 1 + trial % 8, trial % 3), random);
+    const OracleState state = test::random_state(random, assembly);
+    const bsm::HeldInputs held = pushed(assembly, random);
+    const Eigen::VectorXd dense =
+        test::dense_accelerations(assembly, state, held.force_L, held.torque_L);
+    KernelOf kernel(assembly, ChainPath::kGeneral);
+    EXPECT_LT((dense - kernel.accelerations(state, held)).norm(), 1e-11 * dense.norm())
+        << "trial " << trial;
+  }
+}
+
+/// The force room's wrenches through the dense assembly, against the kernel's own gravity.
+TEST(Kernel, FeelsTheGravityOfTheForceRoom) {
+  std::mt19937_64 random(29);
+  for (const GravityLaw law :
+       {GravityLaw::kSystemCom, GravityLaw::kBodyCom, GravityLaw::kBodyGradient}) {
+    for (int trial = 0; trial < 50; ++trial) {
+      Model model;
+      model.assembly = with_twins(test::random_assembly(random, 1 + trial % 5, 1), random);
+      // A field steep enough to be felt over a metre.
+      model.gravity = {1.0e4, law, GravityLaw::kNone};
+      const OracleState state = test::random_state(random, model.assembly);
+      const Vector3d r_BN(30.0, -40.0, 20.0);
+      const bsm::Tree tree = bsm::prepare(model.assembly);
+      const bsm::Motion motion = bsm::motion_of(tree, state.q, state.q_dot, state.omega_BN_B);
+      std::vector<std::vector<MassElement>> elements;
+      for (const Link& link : model.assembly.links) elements.push_back(link.elements);
+      const ForceModel forces(model, law, elements, FieldFrame::kFalling);
+      std::vector<Wrench> wrenches(motion.poses.size());
+      forces.apply(r_BN, motion.poses, wrenches);
+      const Vector3d g = forces.fall(r_BN, Matrix3d::Identity(), motion.poses);
+      std::vector<Vector3d> force_L, torque_L;
+      for (std::size_t i = 0; i < wrenches.size(); ++i) {
+        const auto& [dcm, r_LB] = motion.poses[i];
+        const Wrench& w = wrenches[i];
+        force_L.push_back(dcm.transpose() * w.force_W);
+        torque_L.push_back(dcm.transpose() * (w.torque_PntB_W - r_LB.cross(w.force_W)));
+      }
+      Eigen::VectorXd dense = test::dense_accelerations(model.assembly, state, force_L, torque_L);
+      dense.head<3>() += g;
+      KernelOf kernel(model.assembly, ChainPath::kPlanar, model.gravity);
+      const Eigen::VectorXd ours = kernel.accelerations(state, inputs_of(model.assembly), r_BN);
+      EXPECT_LT((dense - ours).norm(), 1e-11 * dense.norm()) << "trial " << trial;
+    }
+  }
+}
+
+/// A force that follows the centre of mass is one at the place where that is now.
+TEST(Kernel, PutsAForceAtTheCenterOfMass) {
+  std::mt19937_64 random(31);
+  for (int trial = 0; trial < 50; ++trial) {
+    const Assembly assembly = with_twins(test::random_assembly(random, 4, 1), random);
+    const OracleState state = test::random_state(random, assembly);
+    const bsm::Motion motion =
+        bsm::motion_of(bsm::prepare(assembly), state.q, state.q_dot, state.omega_BN_B);
+    double mass = 0.0;
+    Vector3d moment = Vector3d::Zero();
+    for (std::size_t i = 0; i < assembly.links.size(); ++i) {
+      const auto& [dcm, r_LB] = motion.poses[i];
+      for (const MassElement& e : assembly.links[i].elements) {
+        mass += e.mass;
+        moment += e.mass * (r_LB + dcm * e.r_EL_L);
+      }
+    }
+    const std::size_t link = static_cast<std::size_t>(trial) % assembly.links.size();
+    const auto& [dcm, r_LB] = motion.poses[link];
+    bsm::HeldInputs at_center = inputs_of(assembly), fixed = inputs_of(assembly);
+    const Vector3d force_L = test::random_vector(random, 10.0);
+    at_center.force_at_center_L[link] = force_L;
+    at_center.acts_at_center = true;
+    fixed.force_L[link] = force_L;
+    fixed.torque_L[link] = Vector3d(dcm.transpose() * (moment / mass - r_LB)).cross(force_L);
+    KernelOf kernel(assembly);
+    const Eigen::VectorXd expected = kernel.accelerations(state, fixed);
+    EXPECT_LT((kernel.accelerations(state, at_center) - expected).norm(), 1e-12 * expected.norm());
   }
 }
 
@@ -100,36 +190,34 @@ Assembly random_arrays(std::mt19937_64& random) {
   return assembly;
 }
 
-TEST(PlanarChain, EqualsTheGeneralRecursionOnRandomArrays) {
+TEST(Chain, EqualsTheGeneralRecursionOnRandomArrays) {
   std::mt19937_64 random(11);
-  for (int trial = 0; trial < 200; ++trial) {
-    const Assembly assembly = random_arrays(random);
-    const OracleState state = test::random_state(random, assembly);
-    Recursion planar(assembly), general(assembly, bsm::Chains::kGeneral);
-    ASSERT_EQ(planar.planar_links(), 8u);
-    ASSERT_EQ(general.planar_links(), 0u);
-    std::vector<Wrench> wrenches;
-    for (std::size_t i = 0; i < assembly.links.size(); ++i) {
-      wrenches.push_back({test::random_vector(random, 1.0), test::random_vector(random, 1.0)});
-    }
-    for (const std::vector<Wrench>& acting : {std::vector<Wrench>{}, wrenches}) {
-      const Eigen::VectorXd a = recursive_accelerations(planar, assembly, state, acting);
-      const Eigen::VectorXd b = recursive_accelerations(general, assembly, state, acting);
+  // Near enough that every link feels another field.
+  const Gravity near{1.0e4, GravityLaw::kBodyCom, GravityLaw::kNone};
+  for (const Gravity& gravity : {Gravity{}, near}) {
+    for (int trial = 0; trial < 200; ++trial) {
+      const Assembly alone = random_arrays(random);
+      const Assembly assembly = trial % 2 == 0 ? alone : with_twins(alone, random);
+      const OracleState state = test::random_state(random, assembly);
+      KernelOf planar(assembly, ChainPath::kPlanar, gravity);
+      KernelOf general(assembly, ChainPath::kGeneral, gravity);
+      ASSERT_EQ(planar.plan().planar_links(), trial % 2 == 0 ? 8u : 16u);
+      ASSERT_EQ(general.plan().planar_links(), 0u);
+      const bsm::HeldInputs held = inputs_of(assembly);
+      const Vector3d r_BN(30.0, -40.0, 20.0);
+      const Eigen::VectorXd a = planar.accelerations(state, held, r_BN);
+      const Eigen::VectorXd b = general.accelerations(state, held, r_BN);
       EXPECT_LT((a - b).norm(), 1e-13 * b.norm()) << "trial " << trial;
-    }
-    for (std::size_t i = 0; i < assembly.links.size(); ++i) {
-      EXPECT_LT((planar.poses()[i].r_LB_W - general.poses()[i].r_LB_W).norm(), 1e-14);
-      EXPECT_LT((planar.poses()[i].dcm_WL - general.poses()[i].dcm_WL).norm(), 1e-14);
     }
   }
 }
 
-TEST(PlanarChain, ServesOnlyTailsThatAreBalancedAboutTheirPlane) {
+TEST(Chain, ServesOnlyTailsThatAreBalancedAboutTheirPlane) {
   std::mt19937_64 random(12);
   const auto planar_links = [&random](auto change) {
     Assembly assembly = random_arrays(random);
     change(assembly.links[3]);  // the middle of the array of five; three more are on the slide
-    return Recursion(assembly).planar_links();
+    return KernelOf(assembly).plan().planar_links();
   };
   EXPECT_EQ(planar_links([](Link&) {}), 5u + 3u);
   // The links beyond the third still are a tail of their own.
@@ -153,7 +241,7 @@ TEST(BsmEngine, TakesNothingFromTheHeapInADerivative) {
   Model model;
   model.assembly = random_arrays(random);
   const OracleState state = test::random_state(random, model.assembly);
-  model.gravity = {3.98600436e14, GravityLaw::kBodyGradient, GravityLaw::kNone};
+  model.gravity = {kMu, GravityLaw::kBodyGradient, GravityLaw::kNone};
   model.initial.r_BN_N = {7.0e6, 0.0, 0.0};
   model.initial.joint_position = state.q;
   model.initial.joint_rate = state.q_dot;
@@ -171,14 +259,13 @@ TEST(BsmEngine, TakesNothingFromTheHeapInADerivative) {
   EXPECT_EQ(test::allocation_count(), before);
 }
 
-TEST(Recursion, KeepsTheHubMatrixSymmetricPositiveDefinite) {
+TEST(Kernel, KeepsTheHubMatrixSymmetricPositiveDefinite) {
   std::mt19937_64 random(4);
   for (int trial = 0; trial < 50; ++trial) {
     const Assembly assembly = test::random_assembly(random, 8, 2);
-    const OracleState state = test::random_state(random, assembly);
-    Recursion recursion(assembly);
-    recursive_accelerations(recursion, assembly, state, {});
-    const auto matrix = recursion.hub_equation().matrix;
+    KernelOf kernel(assembly);
+    kernel.accelerations(test::random_state(random, assembly), inputs_of(assembly));
+    const auto matrix = kernel.hub_equation().matrix;
     EXPECT_LT((matrix - matrix.transpose()).norm(), 1e-13 * matrix.norm());
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> solver(matrix);
     EXPECT_GT(solver.eigenvalues()[0], 0.0);
@@ -208,8 +295,7 @@ Assembly hub_and_panel(const Panel& p) {
 
 /// Section "hinged rigid body" of the back-substitution papers (Allard, Diaz Ramos, Schaub): the
 /// whole hub equation with the effector's blocks, deep space, no hub offset.
-Recursion::HubEquation published_hinge(const Panel& p, double theta, double theta_dot,
-                                       const Vector3d& omega) {
+HubEquation published_hinge(const Panel& p, double theta, double theta_dot, const Vector3d& omega) {
   const Vector3d s1(std::cos(theta), 0.0, -std::sin(theta));
   const Vector3d s2 = Vector3d::UnitY();
   const Vector3d s3(std::sin(theta), 0.0, std::cos(theta));
@@ -236,7 +322,7 @@ Recursion::HubEquation published_hinge(const Panel& p, double theta, double thet
       theta_dot * (p.I[2] - p.I[0]) * (s1 * s3.transpose() + s3 * s1.transpose()) -
       p.m * (tilde(r_S_prime) * tilde(r_S) + tilde(r_S) * tilde(r_S_prime));
 
-  Recursion::HubEquation equation;
+  HubEquation equation;
   equation.matrix << m * Matrix3d::Identity() + p.m * p.d * s3 * alpha.transpose(),
       -m * tilde(c) + p.m * p.d * s3 * beta.transpose(), m * tilde(c) + q * alpha.transpose(),
       I + q * beta.transpose();
@@ -249,21 +335,21 @@ Recursion::HubEquation published_hinge(const Panel& p, double theta, double thet
   return equation;
 }
 
-TEST(Recursion, GivesThePublishedBlocksOfAHinge) {
+TEST(Kernel, GivesThePublishedBlocksOfAHinge) {
   const Panel panel;
   const Assembly assembly = hub_and_panel(panel);
-  Recursion recursion(assembly);
+  KernelOf kernel(assembly);
   for (const double theta : {0.0, 0.3, -1.1}) {
     const OracleState state{{0.3, -0.5, 0.2}, {theta}, {0.7}, {}};
-    recursive_accelerations(recursion, assembly, state, {});
-    const auto ours = recursion.hub_equation();
+    kernel.accelerations(state, inputs_of(assembly));
+    const auto ours = kernel.hub_equation();
     const auto printed = published_hinge(panel, theta, 0.7, state.omega_BN_B);
     EXPECT_LT((ours.matrix - printed.matrix).norm(), 1e-13 * printed.matrix.norm());
     EXPECT_LT((ours.right - printed.right).norm(), 1e-13 * printed.right.norm());
   }
 }
 
-TEST(Recursion, GivesThePublishedBlocksOfAWheel) {
+TEST(Kernel, GivesThePublishedBlocksOfAWheel) {
   const Vector3d g = Vector3d(1.0, 2.0, -2.0) / 3.0;
   const double Js = 0.08, u = 0.01, Omega = 200.0;
   Assembly assembly = hub_and_panel({});
@@ -271,18 +357,36 @@ TEST(Recursion, GivesThePublishedBlocksOfAWheel) {
   const Matrix3d wheel = Js * g * g.transpose() + 0.04 * (Matrix3d::Identity() - g * g.transpose());
   assembly.links[0].elements.push_back({"rw", 0.0, Vector3d::Zero(), wheel});
   assembly.rotors.push_back({"rw", 0, g, Js, Schedule::constant(u)});
-  Recursion recursion(assembly);
+  KernelOf kernel(assembly);
   const OracleState state{{0.3, -0.5, 0.2}, {}, {}, {Omega}};
-  const Eigen::VectorXd acceleration = recursive_accelerations(recursion, assembly, state, {});
+  const Eigen::VectorXd acceleration = kernel.accelerations(state, inputs_of(assembly));
 
   const Matrix3d I = Matrix3d(Vector3d(400.0, 380.0, 360.0).asDiagonal()) + wheel;
   const Matrix3d D = I - Js * g * g.transpose();
   const Vector3d& omega = state.omega_BN_B;
   const Vector3d vR = -omega.cross(I * omega) - g * u - Js * Omega * omega.cross(g);
-  const auto ours = recursion.hub_equation();
+  const auto ours = kernel.hub_equation();
   EXPECT_LT((ours.matrix.bottomRightCorner<3, 3>() - D).norm(), 1e-13 * D.norm());
   EXPECT_LT((ours.right.tail<3>() - vR).norm(), 1e-13 * vR.norm());
   EXPECT_NEAR(acceleration[6], u / Js - g.dot(acceleration.segment<3>(3)), 1e-15);
+}
+
+/// The chart at these numbers.
+template <class Chart, class Numbers>
+Chart chart_at(const Numbers& numbers) {
+  return Chart(numbers.data(), 0);
+}
+using Mrp = bsm::portable::Mrp<double>;
+using Quaternion = bsm::portable::Quaternion<double>;
+
+Eigen::Vector4d numbers_of(const Quaterniond& q) { return {q.w(), q.x(), q.y(), q.z()}; }
+
+template <class Chart, class Numbers>
+Matrix3d dcm_at(const Numbers& numbers) {
+  const auto dcm = chart_at<Chart>(numbers).dcm_NB();
+  Matrix3d result;
+  result << dcm.x.x, dcm.y.x, dcm.z.x, dcm.x.y, dcm.y.y, dcm.z.y, dcm.x.z, dcm.y.z, dcm.z.z;
+  return result;
 }
 
 TEST(Charts, TurnTheSameWay) {
@@ -290,31 +394,42 @@ TEST(Charts, TurnTheSameWay) {
   for (int i = 0; i < 100; ++i) {
     const Vector3d r = test::random_vector(random, 1.0);
     const Quaterniond q = Quaterniond(r.norm() - 0.7, r.x(), r.y(), r.z()).normalized();
-    const Vector3d sigma = bsm::MrpChart::from(q);
+    const Matrix3d expected = q.toRotationMatrix();
+    const Vector3d sigma = bsm::mrp_from(q);
     EXPECT_LE(sigma.norm(), 1.0 + 1e-15);
-    EXPECT_LT((bsm::MrpChart::dcm_NB(sigma) - q.toRotationMatrix()).norm(), 1e-14);
-    EXPECT_LT((bsm::MrpChart::quaternion(sigma).toRotationMatrix() - q.toRotationMatrix()).norm(),
-              1e-14);
-    const Vector3d shadow = bsm::MrpChart::regular(-sigma / sigma.squaredNorm());
-    EXPECT_LT((bsm::MrpChart::dcm_NB(shadow) - q.toRotationMatrix()).norm(), 1e-14);
+    EXPECT_LT((dcm_at<Mrp>(sigma) - expected).norm(), 1e-14);
+    EXPECT_LT((bsm::quaternion_from(sigma).toRotationMatrix() - expected).norm(), 1e-14);
+    Vector3d outside = -sigma / sigma.squaredNorm();
+    Mrp shadow = chart_at<Mrp>(outside);
+    shadow.make_regular();
+    shadow.put(outside.data(), 0);
+    EXPECT_LE(outside.norm(), 1.0 + 1e-15);
+    EXPECT_LT((dcm_at<Mrp>(outside) - expected).norm(), 1e-14);
+    // Off the unit sphere it is read as if on it, and regular() brings it back.
+    Eigen::Vector4d scaled = 1.1 * numbers_of(q);
+    EXPECT_LT((dcm_at<Quaternion>(scaled) - expected).norm(), 1e-14);
+    Quaternion regular = chart_at<Quaternion>(scaled);
+    regular.make_regular();
+    regular.put(scaled.data(), 0);
+    EXPECT_NEAR(scaled.norm(), 1.0, 1e-15);
   }
+}
+
+/// d(dcm)/dt along the chart's own rate, by central differences.
+template <class Chart, class Numbers>
+Matrix3d dcm_rate(const Numbers& numbers, const Vector3d& omega, double h) {
+  Numbers rate;
+  chart_at<Chart>(numbers).put_rate({omega.x(), omega.y(), omega.z()}, rate.data(), 0);
+  const Numbers ahead = numbers + h * rate, behind = numbers - h * rate;
+  return (dcm_at<Chart>(ahead) - dcm_at<Chart>(behind)) / (2 * h);
 }
 
 TEST(Charts, MoveAsTheRateSays) {
   const Vector3d omega(0.3, -0.2, 0.5);
   const Quaterniond q = Quaterniond(0.9, 0.1, -0.3, 0.2).normalized();
-  const double h = 1e-6;
-  const Matrix3d expected = q.toRotationMatrix() * tilde(omega);  // d(dcm_NB)/dt
-  const Vector3d sigma = bsm::MrpChart::from(q);
-  const Vector3d d_sigma = h * bsm::MrpChart::rate(sigma, omega);
-  const Matrix3d by_mrp =
-      (bsm::MrpChart::dcm_NB(sigma + d_sigma) - bsm::MrpChart::dcm_NB(sigma - d_sigma)) / (2 * h);
-  EXPECT_LT((by_mrp - expected).norm(), 1e-9);
-  const Eigen::Vector4d p = bsm::QuaternionChart::from(q);
-  const Eigen::Vector4d d_p = h * bsm::QuaternionChart::rate(p, omega);
-  const Matrix3d by_quaternion =
-      (bsm::QuaternionChart::dcm_NB(p + d_p) - bsm::QuaternionChart::dcm_NB(p - d_p)) / (2 * h);
-  EXPECT_LT((by_quaternion - expected).norm(), 1e-9);
+  const Matrix3d expected = q.toRotationMatrix() * tilde(omega);
+  EXPECT_LT((dcm_rate<Mrp>(bsm::mrp_from(q), omega, 1e-6) - expected).norm(), 1e-9);
+  EXPECT_LT((dcm_rate<Quaternion>(numbers_of(q), omega, 1e-6) - expected).norm(), 1e-9);
 }
 
 Model random_model(std::mt19937_64& random, AttitudeChart chart) {
@@ -322,7 +437,7 @@ Model random_model(std::mt19937_64& random, AttitudeChart chart) {
   model.assembly = test::random_assembly(random, 5, 2);
   const OracleState state = test::random_state(random, model.assembly);
   model.engines.attitude = chart;
-  model.gravity = {3.98600436e14, GravityLaw::kBodyGradient, GravityLaw::kNone};
+  model.gravity = {kMu, GravityLaw::kBodyGradient, GravityLaw::kNone};
   model.initial.r_BN_N = {7.0e6, 1.0e5, -2.0e5};
   model.initial.v_BN_N = {10.0, 7500.0, 30.0};
   model.initial.q_BN = Quaterniond(0.5, 0.5, -0.5, 0.5);

@@ -49,7 +49,8 @@ Scene random_scene() {
 std::pair<Vector3d, Vector3d> totals(const Scene& s, GravityLaw law, FieldFrame frame) {
   const ForceModel forces(s.model, law, s.elements, frame);
   std::vector<Wrench> wrenches(s.poses.size());
-  const Vector3d common = forces.apply(s.r_BN, s.poses, wrenches);
+  forces.apply(s.r_BN, s.poses, wrenches);
+  const Vector3d common = forces.fall(s.r_BN, Matrix3d::Identity(), s.poses);
   double mass = 0.0;
   Vector3d moment = Vector3d::Zero();
   for (std::size_t i = 0; i < s.poses.size(); ++i) {

@@ -5,12 +5,12 @@
 
 #include <cmath>
 
-#include "runtime/bsm/recursion.h"
+#include "tests/support/kernel_of.h"
 
 namespace twincraft {
 namespace {
 
-using bsm::Recursion;
+using test::HubEquation;
 
 constexpr double kHubMass = 600.0;
 const Matrix3d kHubInertia = Vector3d(400.0, 380.0, 360.0).asDiagonal();
@@ -24,12 +24,12 @@ struct Effector {
   Vector3d vT, vR;
 };
 
-Recursion::HubEquation hub_with(const Effector& e) {
+HubEquation hub_with(const Effector& e) {
   const double m = kHubMass + e.m;
   const Vector3d c = e.m * e.r / m, c_prime = e.m * e.r_prime / m;
   const Matrix3d I = kHubInertia + e.m * tilde(e.r) * tilde(e.r).transpose();
   const Matrix3d I_prime = -e.m * (tilde(e.r_prime) * tilde(e.r) + tilde(e.r) * tilde(e.r_prime));
-  Recursion::HubEquation equation;
+  HubEquation equation;
   equation.matrix << m * Matrix3d::Identity() + e.A, -m * tilde(c) + e.B, m * tilde(c) + e.C,
       I + e.D;
   equation.right << -2.0 * m * kOmega.cross(c_prime) - m * kOmega.cross(kOmega.cross(c)) + e.vT,
@@ -43,23 +43,20 @@ Assembly hub() {
   return assembly;
 }
 
-Recursion::HubEquation ours(const Assembly& assembly, const std::vector<double>& q,
-                            const std::vector<double>& q_dot) {
-  Recursion recursion(assembly);
-  const std::vector<double> effort(q.size(), 0.0);
-  std::vector<double> q_ddot(q.size());
-  recursion.move(q, q_dot, kOmega, {});
-  recursion.accelerate(q, q_dot, {effort, {}}, {}, q_ddot, {});
-  return recursion.hub_equation();
+HubEquation ours(const Assembly& assembly, const std::vector<double>& q,
+                 const std::vector<double>& q_dot) {
+  test::KernelOf kernel(assembly);
+  kernel.accelerations({kOmega, q, q_dot, {}}, test::inputs_of(assembly));
+  return kernel.hub_equation();
 }
 
-void expect_equal(const Recursion::HubEquation& a, const Recursion::HubEquation& b) {
+void expect_equal(const HubEquation& a, const HubEquation& b) {
   EXPECT_LT((a.matrix - b.matrix).norm(), 1e-13 * b.matrix.norm());
   EXPECT_LT((a.right - b.right).norm(), 1e-13 * b.right.norm());
 }
 
 /// Allard, Diaz Ramos, Schaub: a linear spring-mass-damper along p from r_P.
-TEST(Recursion, GivesThePublishedBlocksOfASloshParticle) {
+TEST(Kernel, GivesThePublishedBlocksOfASloshParticle) {
   const double m = 25.0, k = 10.9, c = 0.8, rho = 0.13, rho_dot = -0.4;
   const Vector3d p = Vector3d(1.0, 2.0, -2.0) / 3.0, r_P(0.3, -0.2, 0.8);
   Assembly assembly = hub();
@@ -155,7 +152,7 @@ Effector published_pendulum(const PointPendulum& p, double phi, double theta, do
       -m * (kOmega.cross(r.cross(l_prime)) + L * r.cross(kappa))};
 }
 
-TEST(Recursion, GivesThePublishedBlocksOfASphericalPendulum) {
+TEST(Kernel, GivesThePublishedBlocksOfASphericalPendulum) {
   const PointPendulum pendulum;
   const Assembly assembly = hub_and_pendulum(pendulum);
   for (const double phi : {0.0, 0.4, -2.0}) {

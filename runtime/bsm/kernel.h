@@ -1,0 +1,52 @@
+// The inside of a step, behind an interface: built from a plan for the instruction set of this
+// processor. Same program, same processor features: the same bytes come out; another instruction
+// set may fuse a product and a sum into one rounding, so its last digits differ.
+// Tested by tests/runtime/kernel_test.cpp.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string_view>
+
+#include "runtime/bsm/plan.h"
+
+namespace twincraft::bsm {
+
+class Kernel {
+ public:
+  virtual ~Kernel() = default;
+
+  /// How many spacecraft the state holds side by side: entry i of spacecraft l is at i * lanes + l.
+  virtual std::size_t lanes() const = 0;
+
+  /// Read the masses of what drains again. @param plans  one per lane, as at construction
+  virtual void set_masses(std::span<const Plan* const> plans) = 0;
+  /// Hold these inputs from now on, one per lane.
+  virtual void hold(std::span<const Plan* const> plans,
+                    std::span<const HeldInputs* const> held) = 0;
+  /// rate = d(state)/dt, laid out as runtime/state.h says.
+  virtual void derivative(const double* state, double* rate) = 0;
+  /// MRP shadow switch or quaternion normalisation, in place.
+  virtual void finish_step(double* state) const = 0;
+  /// The hub's equation [A B; C D] (a, omegaDot) = (vT, vR) of the last derivative() of lane 0, as
+  /// printed in the back-substitution papers: 6x6 by rows, then the right-hand side.
+  virtual void hub_equation(std::span<double, 42> equation) const = 0;
+};
+
+/// x86-64 as every processor has it; with AVX2 and FMA; with AVX-512 (F, DQ).
+enum class InstructionSet { kPortable, kAvx2, kAvx512 };
+
+std::string_view name_of(InstructionSet set);
+/// The widest that this processor has.
+InstructionSet best_instruction_set();
+
+/// One spacecraft. @pre the processor has `set`
+std::unique_ptr<Kernel> make_kernel(const Plan& plan, InstructionSet set = best_instruction_set());
+
+/// How many spacecraft a batch steps at once.
+std::size_t batch_lanes(InstructionSet set);
+/// As many spacecraft of one structure as there are lanes; their constants may differ.
+std::unique_ptr<Kernel> make_batch_kernel(std::span<const Plan* const> plans, InstructionSet set);
+
+}  // namespace twincraft::bsm

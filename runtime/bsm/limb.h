@@ -1,0 +1,350 @@
+// A limb: what hangs on the hub by one joint, or like limbs side by side in the lanes of S.
+// See law.h for the equations. Tested by tests/runtime/bsm_test.cpp.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "runtime/bsm/chain.h"
+#include "runtime/bsm/field.h"
+#include "runtime/bsm/law.h"
+#include "runtime/bsm/plan.h"
+
+namespace twincraft::bsm::TWINCRAFT_KERNEL {
+
+/// A balanced wheel on a link.
+template <class H, class S>
+struct RotorOn {
+  Vec<S> axis_L;
+  S spin_inertia{}, motor_torque{};
+  Places<H, S> speed{};
+
+  void set(std::size_t l, const RotorConstants& from, int place) {
+    set_lane(axis_L, l, from.axis_L);
+    set_lane(spin_inertia, l, from.spin_inertia);
+    speed[l % kLimbs<H, S>] = place;
+  }
+};
+
+/// The mass of a link; what drains changes.
+template <class S>
+struct LinkMass {
+  S mass{};
+  Vec<S> moment;  // [kg m] mass times the centre of mass from the link's origin, link axes
+  Sym<S> J;       // [kg m^2] about the origin, without the axial inertia of rotors
+
+  void set(std::size_t l, const bsm::LinkConstants& from) {
+    set_lane(mass, l, from.mass);
+    set_lane(moment, l, from.first_moment);
+    set_lane(J, l, from.J_L);
+  }
+};
+
+template <class H, class S>
+class Limb {
+ public:
+  using Lanes = std::span<const LimbPlan* const>;  // one per lane of S, alike
+  using Plans = std::span<const Plan* const>;      // whose limbs they are
+
+  Limb(Lanes lanes, Plans plans, const Layout& layout) {
+    const LimbPlan& first = *lanes.front();
+    links_.resize(first.links.size());
+    motions_.resize(first.links.size());
+    laws_.resize(first.links.size());
+    recoveries_.resize(first.links.size());
+    for (std::size_t l = 0; l < lanes.size(); ++l) set(l, *lanes[l], *plans[l], layout);
+    for (std::size_t c = 0; c < first.chains.size(); ++c) {
+      std::array<const ChainPlan*, kLanes<S>> of_lanes;
+      for (std::size_t l = 0; l < lanes.size(); ++l) of_lanes[l] = &lanes[l]->chains[c];
+      chains_.emplace_back(of_lanes, layout);
+    }
+  }
+
+  void set_masses(std::size_t l, const LimbPlan& limb, const Plan& plan) {
+    for (std::size_t i = 0; i < links_.size(); ++i) {
+      const auto& constants = plan.tree.links.data()[limb.links.data()[i].link];
+      if (!constants.drains) continue;
+      links_[i].mass.set(l, constants);
+      for (std::size_t e = 0; e < links_[i].elements.size(); ++e) {
+        links_[i].elements[e].set_mass(l, limb.links.data()[i].elements.data()[e]);
+      }
+    }
+  }
+
+  void hold(std::size_t l, const LimbPlan& limb, const HeldInputs& held) {
+    for (std::size_t i = 0; i < links_.size(); ++i) {
+      const LinkPlan& from = limb.links.data()[i];
+      const auto link = static_cast<std::size_t>(from.link);
+      set_lane(links_[i].effort, l, held.effort.data()[link - 1]);
+      set_lane(links_[i].held.force, l, held.force_L.data()[link]);
+      set_lane(links_[i].held.torque, l, held.torque_L.data()[link]);
+      set_lane(links_[i].held_at_center, l, held.force_at_center_L.data()[link]);
+      for (std::size_t k = 0; k < links_[i].rotors.size(); ++k) {
+        set_lane(links_[i].rotors[k].motor_torque, l,
+                 held.motor_torque.data()[from.rotors.data()[k]]);
+      }
+    }
+    for (std::size_t c = 0; c < chains_.size(); ++c) {
+      chains_[c].hold(l, limb.chains.data()[c], held);
+    }
+  }
+
+  /// Positions and rates of all links from those of the hub.
+  void move(const double* state, const Vec<S>& omega_BN_B) {
+    hub_.omega = omega_BN_B;
+    for (std::size_t i = 0; i < links_.size(); ++i) move_link(i, state);
+    for (Chain<H, S>& chain : chains_) chain.move(state, mount(chain.mount()));
+  }
+
+  Moment<S> moment() const {
+    Moment<S> sum;
+    for (std::size_t i = 0; i < links_.size(); ++i) {
+      const S& mass = links_[i].mass.mass;
+      sum += {mass, motions_[i].moment + mass * motions_[i].at.r_LB};
+    }
+    for (const Chain<H, S>& chain : chains_) sum += chain.moment();
+    return sum;
+  }
+
+  /// The limb's law about B.
+  /// @param field  null: nothing pulls  @param r_CB  [m] null: nothing acts at the centre of mass
+  Law<S> contribute(const Field<S>* field, const Vec<S>* r_CB) {
+    for (std::size_t i = 0; i < links_.size(); ++i) begin_law(i, field, r_CB);
+    Law<S> hub;
+    for (Chain<H, S>& chain : chains_) {
+      chain.contribute(field, chain.mount() < 0 ? hub : laws_[index(chain.mount())]);
+    }
+    for (std::size_t i = links_.size(); i-- > 0;) {
+      eliminate(i);
+      const int parent = links_[i].parent;
+      (parent < 0 ? hub : laws_[index(parent)]).add_moved(laws_[i], motions_[i].r_HP);
+    }
+    return hub;
+  }
+
+  /// Accelerations of joints and rotors from those of the hub.
+  void recover(const Vec<S>& omega_dot_B, const Vec<S>& a_B, double* rate) {
+    for (std::size_t i = 0; i < links_.size(); ++i) {
+      const Link& link = links_[i];
+      Motion& m = motions_[i];
+      const Recovery& r = recoveries_[i];
+      const Vec<S>& omega_dot_P =
+          link.parent < 0 ? omega_dot_B : motions_[index(link.parent)].omega_dot;
+      const Vec<S>& a_P = link.parent < 0 ? a_B : motions_[index(link.parent)].a;
+      const Vec<S> a_joint = a_P + cross(omega_dot_P, m.r_HP);
+      const S q_ddot = r.gain - dot(r.gain_n, omega_dot_P) - dot(r.gain_f, a_joint);
+      scatter<H, S>(q_ddot, rate, link.rate);
+      m.omega_dot = omega_dot_P + m.omega_bias;
+      m.a = a_joint + m.a_bias;
+      (link.slides ? m.a : m.omega_dot) += q_ddot * m.axis;
+      for (const RotorOn<H, S>& rotor : link.rotors) {
+        const Vec<S> axis = m.at.dcm_WL * rotor.axis_L;
+        scatter<H, S>(rotor.motor_torque / rotor.spin_inertia - dot(axis, m.omega_dot), rate,
+                      rotor.speed);
+      }
+    }
+    for (const Chain<H, S>& chain : chains_) {
+      const bool on_hub = chain.mount() < 0;
+      chain.recover(on_hub ? omega_dot_B : motions_[index(chain.mount())].omega_dot,
+                    on_hub ? a_B : motions_[index(chain.mount())].a, rate);
+    }
+  }
+
+ private:
+  struct Link {
+    int parent = -1;
+    bool slides = false;
+    int damped_by_cosine_of = -1;
+    Mat<S> turn_fixed, turn_cos, turn_sin;
+    Vec<S> r_HP_P, axis_P;
+    S stiffness{}, damping{}, rest{}, effort{};
+    Pull<S> held;           // link axes, about the origin
+    Vec<S> held_at_center;  // [N] link axes
+    LinkMass<S> mass;
+    Places<H, S> position{}, rate{};
+    std::vector<Pulled<S>> elements;
+    std::vector<RotorOn<H, S>> rotors;
+  };
+  struct Motion {
+    MountMotion<S> at;
+    S u{};  // effort and spring
+    S q_dot{};
+    S cosine = S(1.0);  // of a hinge's angle
+    Vec<S> axis;        // s
+    Vec<S> r_HP;        // [m] link origin from its parent's
+    Vec<S> omega_bias;  // omegaDot = omegaDot_P + omega_bias + s qDDot (hinge)
+    Vec<S> a_bias;      // a = a_P + omegaDot_P x r_HP + a_bias + s qDDot (slide)
+    Vec<S> spin;        // [kg m^2/s] momentum of the rotors
+    Vec<S> moment;      // [kg m] from the origin
+    Vec<S> omega_dot, a;
+  };
+  /// qDDot = gain - gain_n . omegaDot_P - gain_f . a', a' the parent's acceleration at the joint.
+  struct Recovery {
+    S gain;
+    Vec<S> gain_n, gain_f;
+  };
+
+  static std::size_t index(int i) { return static_cast<std::size_t>(i); }
+  const MountMotion<S>& mount(int i) const { return i < 0 ? hub_ : motions_[index(i)].at; }
+
+  void set(std::size_t l, const LimbPlan& limb, const Plan& plan, const Layout& layout) {
+    for (std::size_t i = 0; i < links_.size(); ++i) {
+      const LinkPlan& from = limb.links[i];
+      const bsm::LinkConstants& constants = plan.tree.links[index(from.link)];
+      Link& link = links_[i];
+      link.parent = from.parent;
+      link.slides = constants.kind == JointKind::kSlide;
+      link.damped_by_cosine_of = from.damped_by_cosine_of;
+      set_lane(link.turn_fixed, l, constants.turn_fixed);
+      set_lane(link.turn_cos, l, constants.turn_cos);
+      set_lane(link.turn_sin, l, constants.turn_sin);
+      set_lane(link.r_HP_P, l, constants.r_HP_P);
+      set_lane(link.axis_P, l, constants.axis_P);
+      set_lane(link.stiffness, l, constants.stiffness);
+      set_lane(link.damping, l, constants.damping);
+      set_lane(link.rest, l, constants.rest);
+      link.mass.set(l, constants);
+      link.position[l % kLimbs<H, S>] = layout.position(from.link);
+      link.rate[l % kLimbs<H, S>] = layout.rate(from.link);
+      if (l == 0) {
+        link.elements.resize(from.elements.size());
+        link.rotors.resize(from.rotors.size());
+      }
+      for (std::size_t e = 0; e < from.elements.size(); ++e)
+        link.elements[e].set(l, from.elements[e]);
+      for (std::size_t k = 0; k < from.rotors.size(); ++k) {
+        link.rotors[k].set(l, plan.tree.rotors[index(from.rotors[k])],
+                           layout.wheel + from.rotors[k]);
+      }
+    }
+  }
+
+  void move_link(std::size_t i, const double* state) {
+    const Link& link = links_[i];
+    Motion& m = motions_[i];
+    const bool on_hub = link.parent < 0;
+    const MountMotion<S>& parent = mount(link.parent);
+    const S q = gather<H, S>(state, link.position);
+    const S q_dot = gather<H, S>(state, link.rate);
+
+    m.axis = on_hub ? link.axis_P : parent.dcm_WL * link.axis_P;
+    m.r_HP = on_hub ? link.r_HP_P : parent.dcm_WL * link.r_HP_P;
+    Mat<S> dcm_PL = link.turn_fixed;
+    const Vec<S> slip = cross(parent.omega, m.axis);
+    if (link.slides) {
+      m.r_HP += q * m.axis;
+      m.at.omega = parent.omega;
+      m.omega_bias = {};
+      m.a_bias = cross(parent.omega, cross(parent.omega, m.r_HP)) + (q_dot + q_dot) * slip;
+    } else {
+      const auto [sine, cosine] = sine_cosine(q);
+      m.cosine = cosine;
+      dcm_PL = {link.turn_fixed.x + cosine * link.turn_cos.x + sine * link.turn_sin.x,
+                link.turn_fixed.y + cosine * link.turn_cos.y + sine * link.turn_sin.y,
+                link.turn_fixed.z + cosine * link.turn_cos.z + sine * link.turn_sin.z};
+      m.at.omega = parent.omega + q_dot * m.axis;
+      m.omega_bias = q_dot * slip;
+      m.a_bias = cross(parent.omega, cross(parent.omega, m.r_HP));
+    }
+    m.at.dcm_WL = on_hub ? dcm_PL : parent.dcm_WL * dcm_PL;
+    m.at.r_LB = parent.r_LB + m.r_HP;
+    m.moment = m.at.dcm_WL * link.mass.moment;
+    m.u = link.effort - link.stiffness * (q - link.rest);
+    m.q_dot = q_dot;
+    m.spin = {};
+    for (const RotorOn<H, S>& rotor : link.rotors) {
+      const Vec<S> axis = m.at.dcm_WL * rotor.axis_L;
+      const S speed = gather<H, S>(state, rotor.speed);
+      m.spin += (rotor.spin_inertia * (speed + dot(axis, m.at.omega))) * axis;
+    }
+  }
+
+  S damping(const Link& link) const {
+    if (link.damped_by_cosine_of < 0) return link.damping;
+    const S& cosine = motions_[index(link.damped_by_cosine_of)].cosine;
+    return link.damping * cosine * cosine;
+  }
+
+  void begin_law(std::size_t i, const Field<S>* field, const Vec<S>* r_CB) {
+    const Link& link = links_[i];
+    const Motion& m = motions_[i];
+    const Mat<S>& dcm = m.at.dcm_WL;
+    const Vec<S>& omega = m.at.omega;
+    Law<S>& law = laws_[i];
+    law.J = link.mass.J.turned(dcm);
+    law.H = cross_matrix(m.moment);
+    law.M = Sym<S>::isotropic(link.mass.mass);
+    law.n0 = cross(omega, law.J * omega + m.spin) - dcm * link.held.torque;
+    law.f0 = cross(omega, cross(omega, m.moment)) - dcm * link.held.force;
+    for (const RotorOn<H, S>& rotor : link.rotors) {
+      law.n0 += dcm * (rotor.motor_torque * rotor.axis_L);
+    }
+    if (field != nullptr) pull(i, *field);
+    if (r_CB != nullptr) {
+      const Vec<S> force = dcm * link.held_at_center;
+      law.f0 -= force;
+      law.n0 -= cross(*r_CB - m.at.r_LB, force);
+    }
+  }
+
+  void pull(std::size_t i, const Field<S>& field) {
+    const Motion& m = motions_[i];
+    Pull<S> sum;
+    for (const Pulled<S>& element : links_[i].elements) {
+      const Vec<S> r_EL = m.at.dcm_WL * element.r_EL;
+      const Vec<S> place = m.at.r_LB + r_EL;
+      sum.add(element.mass * field.difference(place), r_EL);
+      if (field.has_gradient) {
+        sum.torque += field.gradient_torque(place, element.I.turned(m.at.dcm_WL));
+      }
+    }
+    laws_[i].f0 -= sum.force;
+    laws_[i].n0 -= sum.torque;
+  }
+
+  void eliminate(std::size_t i) {
+    const Motion& m = motions_[i];
+    const Vec<S>& s = m.axis;
+    Law<S>& law = laws_[i];
+
+    // Known part of the link's own acceleration; U: how n and f answer to qDDot. Along the joint
+    // the effort alone acts.
+    law.n0 += law.H * m.a_bias;
+    law.f0 += law.M * m.a_bias;
+    Vec<S> U_n, U_f;
+    S along, known;
+    if (links_[i].slides) {
+      U_n = law.H * s;
+      U_f = law.M * s;
+      along = dot(s, U_f);
+      known = dot(s, law.f0);
+    } else {
+      law.n0 += law.J * m.omega_bias;
+      law.f0 += transposed(law.H, m.omega_bias);
+      U_n = law.J * s;
+      U_f = transposed(law.H, s);
+      along = dot(s, U_n);
+      known = dot(s, law.n0);
+    }
+    const S inverse = S(1.0) / along;
+    const S gain = inverse * (m.u - damping(links_[i]) * m.q_dot - known);
+    Recovery& r = recoveries_[i];
+    r = {gain, inverse * U_n, inverse * U_f};
+
+    law.J.subtract(U_n, r.gain_n);
+    law.H.subtract(U_n, r.gain_f);
+    law.M.subtract(U_f, r.gain_f);
+    law.n0 += gain * U_n;
+    law.f0 += gain * U_f;
+  }
+
+  std::vector<Link> links_;
+  std::vector<Motion> motions_;
+  std::vector<Law<S>> laws_;
+  std::vector<Recovery> recoveries_;
+  std::vector<Chain<H, S>> chains_;
+  MountMotion<S> hub_{
+      {{S(1.0), S(0.0), S(0.0)}, {S(0.0), S(1.0), S(0.0)}, {S(0.0), S(0.0), S(1.0)}}, {}, {}};
+};
+
+}  // namespace twincraft::bsm::TWINCRAFT_KERNEL

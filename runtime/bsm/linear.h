@@ -1,0 +1,191 @@
+// Vectors of three and matrices of nine or six in any scalar of lanes.h: plain structs, so that the
+// compiler keeps them in registers. Tested by tests/runtime/kernel_test.cpp.
+#pragma once
+
+#include "compiler/ir/mass.h"
+#include "runtime/bsm/lanes.h"
+
+namespace twincraft::bsm::TWINCRAFT_KERNEL {
+
+template <class S>
+struct Vec {
+  S x{}, y{}, z{};
+
+  Vec& operator+=(const Vec& o) {
+    x += o.x;
+    y += o.y;
+    z += o.z;
+    return *this;
+  }
+  Vec& operator-=(const Vec& o) {
+    x -= o.x;
+    y -= o.y;
+    z -= o.z;
+    return *this;
+  }
+  friend Vec operator+(Vec a, const Vec& b) { return a += b; }
+  friend Vec operator-(Vec a, const Vec& b) { return a -= b; }
+  friend Vec operator-(const Vec& a) { return {-a.x, -a.y, -a.z}; }
+  friend Vec operator*(const S& s, const Vec& a) { return {s * a.x, s * a.y, s * a.z}; }
+};
+
+template <class S>
+S dot(const Vec<S>& a, const Vec<S>& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+template <class S>
+Vec<S> cross(const Vec<S>& a, const Vec<S>& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+/// By columns.
+template <class S>
+struct Mat {
+  Vec<S> x, y, z;
+
+  Vec<S> operator*(const Vec<S>& v) const { return v.x * x + v.y * y + v.z * z; }
+  Mat operator*(const Mat& m) const { return {*this * m.x, *this * m.y, *this * m.z}; }
+  Mat& operator+=(const Mat& o) {
+    x += o.x;
+    y += o.y;
+    z += o.z;
+    return *this;
+  }
+  Vec<S> row_x() const { return {x.x, y.x, z.x}; }
+  Vec<S> row_y() const { return {x.y, y.y, z.y}; }
+  Vec<S> row_z() const { return {x.z, y.z, z.z}; }
+  /// Take away u v^T.
+  void subtract(const Vec<S>& u, const Vec<S>& v) {
+    x -= v.x * u;
+    y -= v.y * u;
+    z -= v.z * u;
+  }
+};
+
+/// m^T v
+template <class S>
+Vec<S> transposed(const Mat<S>& m, const Vec<S>& v) {
+  return {dot(m.x, v), dot(m.y, v), dot(m.z, v)};
+}
+
+/// The matrix of v x.
+template <class S>
+Mat<S> cross_matrix(const Vec<S>& v) {
+  const S zero(0.0);
+  return {{zero, v.z, -v.y}, {-v.z, zero, v.x}, {v.y, -v.x, zero}};
+}
+
+/// A symmetric matrix: what the recursion adds and eliminates in every link.
+template <class S>
+struct Sym {
+  S xx{}, yy{}, zz{}, xy{}, xz{}, yz{};
+
+  static Sym isotropic(const S& value) { return {value, value, value, S(0.0), S(0.0), S(0.0)}; }
+  /// The upper triangle of u v^T, where that or the sum it goes into is symmetric.
+  static Sym parallel(const Vec<S>& u, const Vec<S>& v) {
+    return {u.x * v.x, u.y * v.y, u.z * v.z, u.x * v.y, u.x * v.z, u.y * v.z};
+  }
+
+  Vec<S> operator*(const Vec<S>& v) const {
+    return {xx * v.x + xy * v.y + xz * v.z, xy * v.x + yy * v.y + yz * v.z,
+            xz * v.x + yz * v.y + zz * v.z};
+  }
+  Vec<S> column_x() const { return {xx, xy, xz}; }
+  Vec<S> column_y() const { return {xy, yy, yz}; }
+  Vec<S> column_z() const { return {xz, yz, zz}; }
+
+  Sym& operator+=(const Sym& o) {
+    xx += o.xx;
+    yy += o.yy;
+    zz += o.zz;
+    xy += o.xy;
+    xz += o.xz;
+    yz += o.yz;
+    return *this;
+  }
+  friend Sym operator+(Sym a, const Sym& b) { return a += b; }
+  friend Sym operator*(const S& s, const Sym& a) {
+    return {s * a.xx, s * a.yy, s * a.zz, s * a.xy, s * a.xz, s * a.yz};
+  }
+
+  /// Take away u v^T, which is symmetric because v is a multiple of u.
+  void subtract(const Vec<S>& u, const Vec<S>& v) {
+    xx -= u.x * v.x;
+    yy -= u.y * v.y;
+    zz -= u.z * v.z;
+    xy -= u.x * v.y;
+    xz -= u.x * v.z;
+    yz -= u.y * v.z;
+  }
+
+  /// Add Z + Z^T.
+  void add_twice_symmetric(const Mat<S>& Z) {
+    xx += Z.x.x + Z.x.x;
+    yy += Z.y.y + Z.y.y;
+    zz += Z.z.z + Z.z.z;
+    xy += Z.y.x + Z.x.y;
+    xz += Z.z.x + Z.x.z;
+    yz += Z.z.y + Z.y.z;
+  }
+
+  /// R this R^T
+  Sym turned(const Mat<S>& R) const {
+    const Vec<S> rx = R.row_x(), ry = R.row_y(), rz = R.row_z();
+    const Vec<S> a = *this * rx, b = *this * ry, c = *this * rz;
+    return {dot(rx, a), dot(ry, b), dot(rz, c), dot(rx, b), dot(rx, c), dot(ry, c)};
+  }
+};
+
+/// L D L^T of a symmetric positive definite matrix.
+template <class S>
+class Ldl {
+ public:
+  Ldl() = default;
+  explicit Ldl(const Sym<S>& m) {
+    const S one(1.0);
+    inverse_d0_ = one / m.xx;
+    l10_ = m.xy * inverse_d0_;
+    l20_ = m.xz * inverse_d0_;
+    inverse_d1_ = one / (m.yy - l10_ * m.xy);
+    const S e21 = m.yz - l20_ * m.xy;
+    l21_ = e21 * inverse_d1_;
+    inverse_d2_ = one / (m.zz - l20_ * m.xz - l21_ * e21);
+  }
+
+  Vec<S> solve(const Vec<S>& b) const {
+    const S y1 = b.y - l10_ * b.x;
+    const S y2 = b.z - l20_ * b.x - l21_ * y1;
+    const S x2 = y2 * inverse_d2_;
+    const S x1 = y1 * inverse_d1_ - l21_ * x2;
+    return {b.x * inverse_d0_ - l10_ * x1 - l20_ * x2, x1, x2};
+  }
+
+ private:
+  S inverse_d0_{}, inverse_d1_{}, inverse_d2_{}, l10_{}, l20_{}, l21_{};
+};
+
+/// From Eigen, into one lane or into all.
+template <class S>
+void set_lane(Vec<S>& v, std::size_t index, const Vector3d& to) {
+  set_lane(v.x, index, to.x());
+  set_lane(v.y, index, to.y());
+  set_lane(v.z, index, to.z());
+}
+template <class S>
+void set_lane(Mat<S>& m, std::size_t index, const Matrix3d& to) {
+  set_lane(m.x, index, to.col(0));
+  set_lane(m.y, index, to.col(1));
+  set_lane(m.z, index, to.col(2));
+}
+template <class S>
+void set_lane(Sym<S>& m, std::size_t index, const Matrix3d& to) {
+  set_lane(m.xx, index, to(0, 0));
+  set_lane(m.yy, index, to(1, 1));
+  set_lane(m.zz, index, to(2, 2));
+  set_lane(m.xy, index, to(0, 1));
+  set_lane(m.xz, index, to(0, 2));
+  set_lane(m.yz, index, to(1, 2));
+}
+
+}  // namespace twincraft::bsm::TWINCRAFT_KERNEL

@@ -1,0 +1,22 @@
+// Where all links are and how they move, in plain doubles: for observations, books and proofs, not
+// for inside a step. Tested by tests/runtime/bsm_test.cpp.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "runtime/bsm/tree.h"
+#include "runtime/forces/forces.h"
+
+namespace twincraft::bsm {
+
+/// In hub axes, with the velocity of B taken as zero. One entry per link.
+struct Motion {
+  std::vector<LinkPose> poses;
+  std::vector<LinkRate> rates;
+};
+
+Motion motion_of(const Tree& tree, std::span<const double> q, std::span<const double> q_dot,
+                 const Vector3d& omega_BN_B);
+
+}  // namespace twincraft::bsm

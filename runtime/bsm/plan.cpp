@@ -1,0 +1,301 @@
+// See plan.h. Tested by tests/runtime/bsm_test.cpp.
+#include "runtime/bsm/plan.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace twincraft::bsm {
+namespace {
+
+// Products of rotation matrices leave a few ulp where an exact zero was meant.
+constexpr double kZero = 1.0e-14;
+
+std::array<double, 2> in_plane(const Vector3d& v) { return {v.x(), v.z()}; }
+
+/// Chain axes with s as second axis, in mount axes; x along the given direction where it can.
+Matrix3d chain_axes(const Vector3d& s, const Vector3d& along) {
+  Vector3d x = along - along.dot(s) * s;
+  if (x.norm() < 0.1 * along.norm() || along.isZero(0.0)) x = s.unitOrthogonal();
+  x.normalize();
+  Matrix3d dcm_PC;
+  dcm_PC << x, s, x.cross(s);
+  return dcm_PC;
+}
+
+std::vector<int> rotors_on(const Tree& tree, std::size_t link) {
+  std::vector<int> rotors;
+  for (std::size_t k = 0; k < tree.rotors.size(); ++k) {
+    if (tree.rotors[k].link == static_cast<int>(link)) rotors.push_back(static_cast<int>(k));
+  }
+  return rotors;
+}
+
+bool has_elements(GravityLaw law) {
+  return law == GravityLaw::kBodyCom || law == GravityLaw::kBodyGradient;
+}
+
+/// In a falling frame an element at the hub's origin feels nothing but the gradient of its own.
+std::vector<GravityElement> elements_of(const Link& link, GravityLaw law) {
+  std::vector<GravityElement> elements;
+  if (!has_elements(law)) return elements;
+  for (const MassElement& e : link.elements) {
+    const bool falls_with_hub =
+        link.parent < 0 && law == GravityLaw::kBodyCom && e.r_EL_L.isZero(0.0);
+    if (e.mass <= 0.0 || falls_with_hub) continue;
+    elements.push_back({e.mass, e.r_EL_L, e.I_PntE_L, e.tank, e.mass, e.I_PntE_L});
+  }
+  return elements;
+}
+
+void scale_elements(std::span<const double> shares, std::vector<GravityElement>& elements) {
+  for (GravityElement& element : elements) {
+    if (element.tank < 0) continue;
+    const double share = shares[static_cast<std::size_t>(element.tank)];
+    element.mass = share * element.full_mass;
+    element.I_PntE_L = share * element.full_I;
+  }
+}
+
+/// What decides about the planar path.
+struct Candidates {
+  const Tree& tree;
+  const Assembly& assembly;
+  GravityLaw law;
+  std::vector<bool> is_excluded;  // loaded, or its angle decides about another joint
+};
+
+/// How many links from `first` on form an unbranched tail of the tree; zero: none do.
+std::size_t tail_length(const Tree& tree, std::size_t first) {
+  std::size_t last = first;
+  while (last + 1 < tree.links.size() && tree.links[last + 1].parent == static_cast<int>(last)) {
+    if (tree.links[last].children > 1) return 0;
+    ++last;
+  }
+  return tree.links[last].children == 0 ? last - first + 1 : 0;
+}
+
+bool may_be_planar(const Candidates& of, std::size_t i) {
+  const LinkConstants& link = of.tree.links[i];
+  return link.kind == JointKind::kHinge && !link.drains && link.damped_by_cosine_of < 0 &&
+         !of.is_excluded[i] && rotors_on(of.tree, i).empty();
+}
+
+/// Link i of a chain in chain axes. @param dcm_CL  link to chain axes at angle zero
+std::optional<PlanarLinkPlan> planar_link(const Candidates& of, std::size_t i,
+                                          const Matrix3d& dcm_CL) {
+  const LinkConstants& link = of.tree.links[i];
+  const Matrix3d J = dcm_CL * link.J_L * dcm_CL.transpose();
+  const Vector3d moment = dcm_CL * link.first_moment;
+  const double size = J.trace();
+  if (std::abs(J(0, 1)) > kZero * size || std::abs(J(1, 2)) > kZero * size) return std::nullopt;
+  if (std::abs(moment.y()) > kZero * moment.norm()) return std::nullopt;
+  PlanarLinkPlan plan;
+  plan.link = static_cast<int>(i);
+  plan.mass = link.mass;
+  plan.first_moment = in_plane(moment);
+  plan.G = {J(0, 0), J(2, 2), J(0, 2)};
+  plan.J = J(1, 1);
+  plan.stiffness = link.stiffness;
+  plan.damping = link.damping;
+  plan.rest = link.rest;
+  plan.elements = elements_of(of.assembly.links[i], of.law);
+  for (GravityElement& element : plan.elements) element.r_EL = dcm_CL * element.r_EL;
+  return plan;
+}
+
+/// The whole subtree from link `first` on as a planar chain, if it is one: each link the only child
+/// of the one before, hinges parallel, everything balanced about their plane, no rotors or loads,
+/// masses and dampings constant.
+std::optional<ChainPlan> planar_chain(const Candidates& of, std::size_t first) {
+  const std::size_t count = tail_length(of.tree, first);
+  if (count == 0 || of.law == GravityLaw::kBodyGradient) return std::nullopt;
+  const LinkConstants& root = of.tree.links[first];
+  ChainPlan chain;
+  chain.r_HP_P = root.r_HP_P;
+  chain.dcm_PC = chain_axes(root.axis_P, (root.turn_fixed + root.turn_cos) * root.first_moment);
+
+  Matrix3d dcm_CL = chain.dcm_PC.transpose();  // of the link before
+  for (std::size_t i = first; i < first + count; ++i) {
+    const LinkConstants& link = of.tree.links[i];
+    if (!may_be_planar(of, i)) return std::nullopt;
+    if ((dcm_CL * link.axis_P - Vector3d::UnitY()).norm() > kZero) return std::nullopt;
+    if (i > first) {
+      const Vector3d next = dcm_CL * link.r_HP_P;
+      if (std::abs(next.y()) > kZero * next.norm()) return std::nullopt;
+      chain.links.back().next = in_plane(next);
+    }
+    dcm_CL = dcm_CL * (link.turn_fixed + link.turn_cos);
+    std::optional<PlanarLinkPlan> planar = planar_link(of, i, dcm_CL);
+    if (!planar) return std::nullopt;
+    chain.links.push_back(std::move(*planar));
+  }
+  return chain;
+}
+
+/// Sorts links into limbs, parents before children.
+class LimbBuilder {
+ public:
+  explicit LimbBuilder(const Candidates& of)
+      : of_(of), limb_of_(of.tree.links.size(), -1), place_in_limb_(of.tree.links.size(), -1) {}
+
+  std::vector<LimbPlan> build(ChainPath paths) {
+    for (std::size_t i = 1; i < of_.tree.links.size(); ++i) {
+      std::optional<ChainPlan> chain;
+      if (paths == ChainPath::kPlanar) chain = planar_chain(of_, i);
+      if (!chain) {
+        add_link(i);
+        continue;
+      }
+      i += chain->links.size() - 1;
+      add_chain(std::move(*chain));
+    }
+    for (LimbPlan& limb : limbs_) {  // may be a link that comes later
+      for (LinkPlan& link : limb.links) {
+        const int by = of_.tree.links[index(link.link)].damped_by_cosine_of;
+        if (by >= 0) link.damped_by_cosine_of = place_of(by);
+      }
+      limb.is_point = paths == ChainPath::kPlanar && is_point(limb);
+    }
+    return std::move(limbs_);
+  }
+
+ private:
+  static std::size_t index(int i) { return static_cast<std::size_t>(i); }
+
+  /// Of a link's parent; a limb begins on the hub.
+  LimbPlan& limb_on(int parent, std::size_t link) {
+    if (parent == 0) {
+      limb_of_[link] = static_cast<int>(limbs_.size());
+      return limbs_.emplace_back();
+    }
+    limb_of_[link] = limb_of_[index(parent)];
+    return limbs_[index(limb_of_[link])];
+  }
+  int place_of(int link) const { return link == 0 ? -1 : place_in_limb_[index(link)]; }
+
+  bool is_point(const LimbPlan& limb) const {
+    if (limb.links.size() != 1 || !limb.chains.empty() || of_.law == GravityLaw::kBodyGradient) {
+      return false;
+    }
+    const LinkPlan& only = limb.links.front();
+    const LinkConstants& link = of_.tree.links[index(only.link)];
+    return only.slides && only.rotors.empty() && only.damped_by_cosine_of < 0 &&
+           link.first_moment.isZero(0.0) && link.J_L.isZero(0.0);
+  }
+
+  void add_link(std::size_t i) {
+    const LinkConstants& link = of_.tree.links[i];
+    LimbPlan& limb = limb_on(link.parent, i);
+    place_in_limb_[i] = static_cast<int>(limb.links.size());
+    limb.links.push_back({static_cast<int>(i), place_of(link.parent),
+                          link.kind == JointKind::kSlide, -1,
+                          elements_of(of_.assembly.links[i], of_.law), rotors_on(of_.tree, i)});
+  }
+
+  void add_chain(ChainPlan chain) {
+    const auto first = index(chain.links.front().link);
+    const int parent = of_.tree.links[first].parent;
+    chain.mount = place_of(parent);
+    limb_on(parent, first).chains.push_back(std::move(chain));
+  }
+
+  const Candidates& of_;
+  std::vector<LimbPlan> limbs_;
+  std::vector<int> limb_of_, place_in_limb_;
+};
+
+}  // namespace
+
+bool are_alike(const LimbPlan& a, const LimbPlan& b) {
+  const auto like_links = [](const LinkPlan& x, const LinkPlan& y) {
+    return x.parent == y.parent && x.slides == y.slides &&
+           x.damped_by_cosine_of == y.damped_by_cosine_of &&
+           x.elements.size() == y.elements.size() && x.rotors.size() == y.rotors.size();
+  };
+  const auto like_chains = [](const ChainPlan& x, const ChainPlan& y) {
+    return x.mount == y.mount && std::equal(x.links.begin(), x.links.end(), y.links.begin(),
+                                            y.links.end(), [](const auto& p, const auto& q) {
+                                              return p.elements.size() == q.elements.size();
+                                            });
+  };
+  return a.is_point == b.is_point &&
+         std::equal(a.links.begin(), a.links.end(), b.links.begin(), b.links.end(), like_links) &&
+         std::equal(a.chains.begin(), a.chains.end(), b.chains.begin(), b.chains.end(),
+                    like_chains);
+}
+
+std::size_t Plan::planar_links() const {
+  std::size_t count = 0;
+  for (const LimbPlan& limb : limbs) {
+    for (const ChainPlan& chain : limb.chains) count += chain.links.size();
+  }
+  return count;
+}
+
+void Plan::set_shares(std::span<const double> shares) {
+  bsm::set_shares(tree, shares);
+  scale_elements(shares, hub.elements);
+  for (LimbPlan& limb : limbs) {
+    for (LinkPlan& link : limb.links) scale_elements(shares, link.elements);
+  }
+}
+
+Plan make_plan(const Assembly& assembly, AttitudeChart chart, const Gravity& gravity,
+               const std::vector<Load>& loads, ChainPath paths) {
+  Plan plan;
+  plan.tree = prepare(assembly);
+  plan.chart = chart;
+  plan.mu = gravity.mu;
+  plan.law = gravity.bsm;
+  std::vector<bool> is_excluded(assembly.links.size(), false);
+  for (const Load& load : loads) is_excluded[static_cast<std::size_t>(load.link)] = true;
+  for (const LinkConstants& link : plan.tree.links) {
+    if (link.damped_by_cosine_of >= 0) {
+      is_excluded[static_cast<std::size_t>(link.damped_by_cosine_of)] = true;
+    }
+  }
+  plan.hub.elements = elements_of(assembly.links.front(), plan.law);
+  plan.hub.rotors = rotors_on(plan.tree, 0);
+  const Candidates candidates{plan.tree, assembly, plan.law, std::move(is_excluded)};
+  plan.limbs = LimbBuilder(candidates).build(paths);
+  return plan;
+}
+
+HeldInputs HeldInputs::none(const Assembly& assembly) {
+  const std::vector<Vector3d> nothing(assembly.links.size(), Vector3d::Zero());
+  return {std::vector<double>(assembly.links.size() - 1),
+          std::vector<double>(assembly.rotors.size()),
+          nothing,
+          nothing,
+          nothing,
+          false};
+}
+
+void HeldInputs::set(const Assembly& assembly, std::span<const Load> loads, double time) {
+  for (std::size_t i = 0; i < effort.size(); ++i) {
+    effort[i] = assembly.links[i + 1].joint.effort.at(time);
+  }
+  for (std::size_t k = 0; k < motor_torque.size(); ++k) {
+    motor_torque[k] = assembly.rotors[k].torque.at(time);
+  }
+  for (std::vector<Vector3d>* all : {&force_L, &torque_L, &force_at_center_L}) {
+    std::fill(all->begin(), all->end(), Vector3d::Zero());
+  }
+  acts_at_center = false;
+  for (const Load& load : loads) {
+    const auto link = static_cast<std::size_t>(load.link);
+    const Vector3d force(load.force_L[0].at(time), load.force_L[1].at(time),
+                         load.force_L[2].at(time));
+    torque_L[link] +=
+        Vector3d(load.torque_L[0].at(time), load.torque_L[1].at(time), load.torque_L[2].at(time));
+    if (load.r_FL_L) {
+      force_L[link] += force;
+      torque_L[link] += load.r_FL_L->cross(force);
+    } else {
+      force_at_center_L[link] += force;
+      acts_at_center = acts_at_center || !force.isZero(0.0);
+    }
+  }
+}
+
+}  // namespace twincraft::bsm

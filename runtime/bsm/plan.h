@@ -1,0 +1,98 @@
+// What the kernel is built from: the tree cut into the hub and its limbs, with the constants of
+// each. A limb is what hangs on the hub by one joint; like limbs can share SIMD lanes, and tails
+// whose hinges are parallel take the planar path. Everything here happens once, in doubles.
+// Tested by tests/runtime/bsm_test.cpp.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "compiler/ir/model.h"
+#include "runtime/bsm/tree.h"
+
+namespace twincraft::bsm {
+
+/// What gravity pulls on.
+struct GravityElement {
+  double mass = 0.0;  // [kg]
+  Vector3d r_EL;      // [m] from the link's origin; link axes, of a chain: chain axes at angle zero
+  Matrix3d I_PntE_L;  // [kg m^2] about its own centre
+  int tank = -1;
+  double full_mass = 0.0;
+  Matrix3d full_I;
+};
+
+struct LinkPlan {
+  int link = 0;     // in the assembly
+  int parent = -1;  // in the limb; -1: the hub
+  bool slides = false;
+  int damped_by_cosine_of = -1;  // in the limb; -1: of none
+  std::vector<GravityElement> elements;
+  std::vector<int> rotors;  // in the assembly
+};
+
+struct PlanarLinkPlan {
+  int link = 0;
+  double mass = 0.0;
+  std::array<double, 2> first_moment{};  // [kg m] from the hinge, (x, z) at angle zero
+  std::array<double, 2> next{};          // [m] to the next hinge
+  std::array<double, 3> G{};             // [kg m^2] in-plane inertia about the hinge: xx, zz, xz
+  double J = 0.0;                        // [kg m^2] about s through the hinge
+  double stiffness = 0.0, damping = 0.0, rest = 0.0;
+  std::vector<GravityElement> elements;
+};
+
+struct ChainPlan {
+  int mount = -1;   // in the limb; -1: the hub
+  Vector3d r_HP_P;  // [m] root hinge, mount axes
+  Matrix3d dcm_PC;  // chain to mount axes
+  std::vector<PlanarLinkPlan> links;
+};
+
+struct LimbPlan {
+  std::vector<LinkPlan> links;  // parents before children
+  std::vector<ChainPlan> chains;
+  bool is_point = false;  // one link: a point mass on a slide
+};
+
+/// The same structure, whatever the constants: their limbs can go side by side.
+bool are_alike(const LimbPlan& a, const LimbPlan& b);
+
+struct Plan {
+  Tree tree;
+  AttitudeChart chart = AttitudeChart::kMrp;
+  double mu = 0.0;  // [m^3/s^2]
+  GravityLaw law = GravityLaw::kNone;
+  LinkPlan hub;
+  std::vector<LimbPlan> limbs;
+
+  int joints() const { return static_cast<int>(tree.links.size()) - 1; }
+  int rotors() const { return static_cast<int>(tree.rotors.size()); }
+  /// How many links the planar path serves.
+  std::size_t planar_links() const;
+  /// Let elements of tanks have these parts of their mass and inertia; one share per tank.
+  void set_shares(std::span<const double> shares);
+};
+
+/// @param loads  what may act on a link, which excludes it from the planar path
+/// @param paths  kGeneral: sliding points too take the way that serves any tree
+Plan make_plan(const Assembly& assembly, AttitudeChart chart, const Gravity& gravity,
+               const std::vector<Load>& loads, ChainPath paths = ChainPath::kPlanar);
+
+/// What acts until the next event.
+struct HeldInputs {
+  std::vector<double> effort;        // [N m] or [N], one per link but the hub
+  std::vector<double> motor_torque;  // [N m], one per rotor, on the rotor
+  // Per link, in its axes and about its origin.
+  std::vector<Vector3d> force_L, torque_L;  // [N], [N m]
+  std::vector<Vector3d> force_at_center_L;  // [N] the same, but at the system centre of mass
+  bool acts_at_center = false;
+
+  static HeldInputs none(const Assembly& assembly);
+  /// At their values of `time` [s]. No allocation.
+  void set(const Assembly& assembly, std::span<const Load> loads, double time);
+};
+
+}  // namespace twincraft::bsm

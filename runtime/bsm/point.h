@@ -1,0 +1,104 @@
+// A point mass on a slide in the hub, such as a slosh particle: the recursion's one step for it,
+// written out. With e = r x s,
+//   M = m (1 - s s^T),  H = m (r~ - e s^T),  J = m (r^2 1 - r r^T - e e^T)
+// are what is left about B when the slide along s has taken its own acceleration out.
+// Tested by tests/runtime/bsm_test.cpp (against the general limb and the dense oracle).
+#pragma once
+
+#include <span>
+
+#include "runtime/bsm/field.h"
+#include "runtime/bsm/law.h"
+#include "runtime/bsm/plan.h"
+
+namespace twincraft::bsm::TWINCRAFT_KERNEL {
+
+template <class H, class S>
+class Point {
+ public:
+  using Lanes = std::span<const LimbPlan* const>;  // one per lane of S, alike
+  using Plans = std::span<const Plan* const>;      // whose limbs they are
+
+  Point(Lanes lanes, Plans plans, const Layout& layout) {
+    for (std::size_t l = 0; l < lanes.size(); ++l) {
+      const LinkPlan& from = *lanes[l]->links.data();
+      const bsm::LinkConstants& constants = plans[l]->tree.links.data()[from.link];
+      set_lane(r_HB_, l, constants.r_HP_P);
+      set_lane(axis_, l, constants.axis_P);
+      set_lane(dcm_BL_, l, constants.turn_fixed);
+      set_lane(stiffness_, l, constants.stiffness);
+      set_lane(damping_, l, constants.damping);
+      set_lane(rest_, l, constants.rest);
+      set_lane(mass_, l, constants.mass);
+      position_[l % kLimbs<H, S>] = layout.position(from.link);
+      rate_[l % kLimbs<H, S>] = layout.rate(from.link);
+    }
+  }
+
+  void set_masses(std::size_t l, const LimbPlan& limb, const Plan& plan) {
+    set_lane(mass_, l, plan.tree.links.data()[limb.links.data()->link].mass);
+  }
+
+  void hold(std::size_t l, const LimbPlan& limb, const HeldInputs& held) {
+    const auto link = static_cast<std::size_t>(limb.links.data()->link);
+    const Vector3d* force_L = held.force_L.data() + link;
+    const Vector3d* force_at_center_L = held.force_at_center_L.data() + link;
+    set_lane(effort_, l, held.effort.data()[link - 1]);
+    set_lane(force_L_, l, *force_L);
+    set_lane(torque_L_, l, held.torque_L.data()[link]);
+    set_lane(force_at_center_L_, l, *force_at_center_L);
+  }
+
+  void move(const double* state, const Vec<S>& omega) {
+    const S q = gather<H, S>(state, position_);
+    const S q_dot = gather<H, S>(state, rate_);
+    r_ = r_HB_ + q * axis_;
+    a_bias_ = cross(omega, cross(omega, r_) + (q_dot + q_dot) * axis_);
+    u_ = effort_ - stiffness_ * (q - rest_) - damping_ * q_dot;
+  }
+
+  Moment<S> moment() const { return {mass_, mass_ * r_}; }
+
+  Law<S> contribute(const Field<S>* field, const Vec<S>* r_CB) {
+    Vec<S> pull = dcm_BL_ * force_L_;
+    Vec<S> torque = dcm_BL_ * torque_L_;
+    if (field != nullptr) pull += mass_ * field->difference(r_);
+    if (r_CB != nullptr) {
+      const Vec<S> force = dcm_BL_ * force_at_center_L_;
+      pull += force;
+      torque += cross(*r_CB - r_, force);
+    }
+    const Vec<S> f0 = mass_ * a_bias_ - pull;
+    gain_ = (u_ - dot(axis_, f0)) / mass_;
+
+    const Vec<S>&r = r_, &s = axis_;
+    const Vec<S> ms = mass_ * s, mr = mass_ * r, e = cross(r, s), me = mass_ * e;
+    const S mr2 = dot(mr, r);
+    Law<S> law;
+    law.M = Sym<S>::isotropic(mass_);
+    law.M.subtract(ms, s);
+    law.H = cross_matrix(mr);
+    law.H.subtract(me, s);
+    law.J = Sym<S>::isotropic(mr2);
+    law.J.subtract(mr, r);
+    law.J.subtract(me, e);
+    law.f0 = f0 + gain_ * ms;
+    law.n0 = cross(r, law.f0) - torque;
+    return law;
+  }
+
+  void recover(const Vec<S>& omega_dot_B, const Vec<S>& a_B, double* rate) const {
+    scatter<H, S>(gain_ - dot(axis_, a_B + cross(omega_dot_B, r_)), rate, rate_);
+  }
+
+ private:
+  Vec<S> r_HB_, axis_;
+  Mat<S> dcm_BL_;
+  S stiffness_{}, damping_{}, rest_{}, mass_{}, effort_{};
+  Vec<S> force_L_, torque_L_, force_at_center_L_;
+  Places<H, S> position_{}, rate_{};
+  Vec<S> r_, a_bias_;
+  S u_{}, gain_{};
+};
+
+}  // namespace twincraft::bsm::TWINCRAFT_KERNEL

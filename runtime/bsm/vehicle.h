@@ -1,0 +1,386 @@
+// The derivative of a whole spacecraft: hub, limbs, attitude, gravity. See law.h for the
+// equations. Tested by tests/runtime/bsm_test.cpp.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "runtime/bsm/charts.h"
+#include "runtime/bsm/kernel.h"
+#include "runtime/bsm/limb.h"
+#include "runtime/bsm/point.h"
+
+namespace twincraft::bsm::TWINCRAFT_KERNEL {
+
+/// @tparam H  scalar of the hub: a double, or one spacecraft per lane
+/// @tparam S  of the limbs: two like ones per Pair, or H where the lanes are spacecraft
+template <class H, class S>
+class Vehicle {
+ public:
+  using Plans = std::span<const Plan* const>;  // one per lane of H, alike
+  using Inputs = std::span<const HeldInputs* const>;
+
+  explicit Vehicle(Plans plans) : plan_(*plans[0]) {
+    const int omega = Layout::kAttitude + (plan_.chart == AttitudeChart::kMrp ? 3 : 4);
+    const int joint = omega + 3;
+    layout_ = {omega, joint, joint + plan_.joints(), joint + 2 * plan_.joints()};
+    elements_.resize(plan_.hub.elements.size());
+    rotors_.resize(plan_.hub.rotors.size());
+    for (std::size_t l = 0; l < plans.size(); ++l) set_hub(l, *plans[l]);
+    set_hub_matrices();
+    group_limbs(plans);
+    is_rigid_ = plan_.limbs.empty() && !plan_.tree.links.data()->drains;
+    if (is_rigid_) factors_ = HubFactors(hub_);
+    for (const LimbPlan& limb : plan_.limbs) has_elements_ = has_elements_ || pulls_on(limb);
+    has_elements_ = has_elements_ || !elements_.empty();
+  }
+
+  void set_masses(Plans plans) {
+    for (std::size_t l = 0; l < plans.size(); ++l) {
+      const Plan& plan = *plans[l];
+      if (!plan.tree.links.data()->drains) continue;
+      mass_.set(l, *plan.tree.links.data());
+      for (std::size_t e = 0; e < elements_.size(); ++e) {
+        elements_[e].set_mass(l, plan.hub.elements.data()[e]);
+      }
+    }
+    set_hub_matrices();
+    for_each_group([&plans](auto& group) {
+      for (std::size_t l = 0; l < kLanes<S>; ++l) {
+        const Plan& plan = *plans[l / kLimbs<H, S>];
+        group.limb.set_masses(l, limb_of(group, l, plan), plan);
+      }
+    });
+  }
+
+  void hold(Plans plans, Inputs held) {
+    acts_at_center_ = false;
+    for (std::size_t l = 0; l < plans.size(); ++l) {
+      set_lane(held_.force, l, *held[l]->force_L.data());
+      set_lane(held_.torque, l, *held[l]->torque_L.data());
+      set_lane(held_at_center_, l, *held[l]->force_at_center_L.data());
+      acts_at_center_ = acts_at_center_ || held[l]->acts_at_center;
+      for (std::size_t k = 0; k < rotors_.size(); ++k) {
+        set_lane(rotors_[k].motor_torque, l,
+                 held[l]->motor_torque.data()[plans[l]->hub.rotors.data()[k]]);
+      }
+    }
+    turns_alone_ = is_rigid_ && !has_elements_ && !acts_at_center_;
+    for (std::size_t l = 0; l < plans.size(); ++l) {
+      turns_alone_ = turns_alone_ && held[l]->force_L.data()->isZero(0.0) &&
+                     plans[l]->tree.links.data()->first_moment.isZero(0.0);
+    }
+    motor_torque_ = {};
+    for (const RotorOn<H, H>& rotor : rotors_) motor_torque_ += rotor.motor_torque * rotor.axis_L;
+    for_each_group([&plans, &held](auto& group) {
+      for (std::size_t l = 0; l < kLanes<S>; ++l) {
+        const std::size_t p = l / kLimbs<H, S>;
+        group.limb.hold(l, limb_of(group, l, *plans[p]), *held[p]);
+      }
+    });
+  }
+
+  void derivative(const double* state, double* rate) {
+    if (plan_.chart == AttitudeChart::kMrp) {
+      derivative_in<Mrp<H>>(state, rate);
+    } else {
+      derivative_in<Quaternion<H>>(state, rate);
+    }
+  }
+
+  void finish_step(double* state) const {
+    if (plan_.chart == AttitudeChart::kMrp) {
+      Mrp<H> chart(state, Layout::kAttitude);
+      chart.make_regular();
+      chart.put(state, Layout::kAttitude);
+    } else {
+      Quaternion<H> chart(state, Layout::kAttitude);
+      chart.make_regular();
+      chart.put(state, Layout::kAttitude);
+    }
+  }
+
+  const Law<H>& last_hub_law() const { return hub_; }
+
+ private:
+  /// Like limbs, side by side.
+  template <class Of>
+  struct Group {
+    std::array<std::size_t, kLimbs<H, S>> limbs;  // of the plan
+    bool is_full;  // else the second lane repeats the first one's limb
+    Of limb;
+  };
+  /// The hub equation's matrix, factored: Schur complement of M.
+  struct HubFactors {
+    HubFactors() = default;
+    explicit HubFactors(const Law<H>& hub)
+        : M(hub.M),
+          coupling{M.solve(hub.H.row_x()), M.solve(hub.H.row_y()), M.solve(hub.H.row_z())} {
+      // D - C A^-1 B, symmetric
+      const Mat<H>& c = coupling;
+      schur = Ldl<H>({hub.J.xx - dot(hub.H.row_x(), c.x), hub.J.yy - dot(hub.H.row_y(), c.y),
+                      hub.J.zz - dot(hub.H.row_z(), c.z), hub.J.xy - dot(hub.H.row_x(), c.y),
+                      hub.J.xz - dot(hub.H.row_x(), c.z), hub.J.yz - dot(hub.H.row_y(), c.z)});
+    }
+    Ldl<H> M;
+    Mat<H> coupling;  // M^-1 H^T
+    Ldl<H> schur;
+  };
+
+  template <class Each>
+  void for_each_group(const Each& each) {
+    for (auto& group : points_) each(group);
+    for (auto& group : limbs_) each(group);
+  }
+  template <class Each>
+  void for_each_group(const Each& each) const {
+    for (const auto& group : points_) each(group);
+    for (const auto& group : limbs_) each(group);
+  }
+  template <class Of>
+  static const LimbPlan& limb_of(const Group<Of>& group, std::size_t l, const Plan& plan) {
+    return plan.limbs.data()[group.limbs[l % kLimbs<H, S>]];
+  }
+  static Vec<H> vector(const double* state, int at) {
+    return {entry<H>(state, at), entry<H>(state, at + 1), entry<H>(state, at + 2)};
+  }
+  static void put(const Vec<H>& v, double* state, int at) {
+    put_entry(state, at, v.x);
+    put_entry(state, at + 1, v.y);
+    put_entry(state, at + 2, v.z);
+  }
+  static Vec<S> spread(const Vec<H>& v) { return {S(v.x), S(v.y), S(v.z)}; }
+
+  void set_hub(std::size_t l, const Plan& plan) {
+    set_lane(mu_, l, plan.mu);
+    mass_.set(l, *plan.tree.links.data());
+    for (std::size_t e = 0; e < elements_.size(); ++e) {
+      elements_[e].set(l, plan.hub.elements.data()[e]);
+    }
+    for (std::size_t k = 0; k < rotors_.size(); ++k) {
+      const int rotor = plan.hub.rotors.data()[k];
+      rotors_[k].set(l, plan.tree.rotors.data()[rotor], layout_.wheel + rotor);
+    }
+  }
+
+  static bool pulls_on(const LimbPlan& limb) {
+    bool pulls = false;
+    for (const LinkPlan& link : limb.links) pulls = pulls || !link.elements.empty();
+    for (const ChainPlan& chain : limb.chains) {
+      for (const PlanarLinkPlan& link : chain.links) pulls = pulls || !link.elements.empty();
+    }
+    return pulls;
+  }
+
+  void add_group(const std::array<std::size_t, kLimbs<H, S>>& limbs, bool is_full, Plans plans) {
+    std::array<const LimbPlan*, kLanes<S>> lanes;
+    std::array<const Plan*, kLanes<S>> of;
+    for (std::size_t l = 0; l < kLanes<S>; ++l) {
+      of[l] = plans[l / kLimbs<H, S>];
+      lanes[l] = &of[l]->limbs.data()[limbs[l % kLimbs<H, S>]];
+    }
+    if (lanes[0]->is_point) {
+      points_.push_back({limbs, is_full, Point<H, S>(lanes, of, layout_)});
+    } else {
+      limbs_.push_back({limbs, is_full, Limb<H, S>(lanes, of, layout_)});
+    }
+  }
+
+  void group_limbs(Plans plans) {
+    const std::size_t count = plan_.limbs.size();
+    if constexpr (kLimbs<H, S> == 1) {
+      for (std::size_t k = 0; k < count; ++k) add_group({k}, true, plans);
+    } else {
+      for (std::size_t k = 0; k < count; ++k) {
+        if (is_grouped(k)) continue;
+        std::size_t other = k + 1;
+        while (other < count && (is_grouped(other) ||
+                                 !are_alike(plan_.limbs.data()[k], plan_.limbs.data()[other]))) {
+          ++other;
+        }
+        const bool alone = other == count;
+        add_group({k, alone ? k : other}, !alone, plans);
+      }
+    }
+  }
+  bool is_grouped(std::size_t k) const {
+    bool found = false;
+    for_each_group([&found, k](const auto& group) {
+      for (const std::size_t limb : group.limbs) found = found || limb == k;
+    });
+    return found;
+  }
+
+  template <class Chart>
+  void derivative_in(const double* state, double* rate) {
+    const Chart chart(state, Layout::kAttitude);
+    const Vec<H> omega = vector(state, layout_.omega);
+    if (turns_alone_) {
+      turn_alone(chart, omega, state, rate);
+      return;
+    }
+    const Mat<H> dcm_NB = chart.dcm_NB();
+    const Vec<S> omega_S = spread(omega);
+    for_each_group([&](auto& group) { group.limb.move(state, omega_S); });
+
+    begin_hub_law(omega, rotor_momentum(state, omega));
+    const Vec<H> g_N = sum_laws(vector(state, 0), dcm_NB);
+    if (!is_rigid_) factors_ = HubFactors(hub_);
+    const Vec<H> omega_dot = factors_.schur.solve(transposed(factors_.coupling, hub_.f0) - hub_.n0);
+    const Vec<H> a = -factors_.M.solve(hub_.f0) - factors_.coupling * omega_dot;
+
+    const Vec<S> omega_dot_S = spread(omega_dot), a_S = spread(a);
+    for_each_group([&](auto& group) { group.limb.recover(omega_dot_S, a_S, rate); });
+    put_hub_rates(chart, state, dcm_NB * a + g_N, omega_dot, rate);
+    for (int i = layout_.joint; i < layout_.joint_rate; ++i) {
+      put_entry(rate, i, entry<H>(state, i + layout_.joint_rate - layout_.joint));
+    }
+  }
+
+  /// A rigid hub whose origin is its centre of mass, that no force acts on: rotation knows nothing
+  /// of translation, nor the other way.
+  template <class Chart>
+  void turn_alone(const Chart& chart, const Vec<H>& omega, const double* state, double* rate) {
+    const Vec<H> spin = rotor_momentum(state, omega);
+    hub_.n0 = cross(omega, mass_.J * omega + spin) + (motor_torque_ - held_.torque);
+    hub_.f0 = {};
+    Vec<H> g_N;
+    if (plan_.law != GravityLaw::kNone) g_N = Field<H>(mu_, vector(state, 0), false).at_hub();
+    put_hub_rates(chart, state, g_N, -factors_.schur.solve(hub_.n0), rate);
+  }
+
+  template <class Chart>
+  void put_hub_rates(const Chart& chart, const double* state, const Vec<H>& v_dot,
+                     const Vec<H>& omega_dot, double* rate) const {
+    put(vector(state, 3), rate, 0);
+    put(v_dot, rate, 3);
+    chart.put_rate(vector(state, layout_.omega), rate, Layout::kAttitude);
+    put(omega_dot, rate, layout_.omega);
+    for (const RotorOn<H, H>& rotor : rotors_) {
+      put_entry(rate, rotor.speed[0],
+                rotor.motor_torque / rotor.spin_inertia - dot(rotor.axis_L, omega_dot));
+    }
+  }
+
+  Vec<H> rotor_momentum(const double* state, const Vec<H>& omega) const {
+    Vec<H> spin;
+    for (const RotorOn<H, H>& rotor : rotors_) {
+      const H speed = entry<H>(state, rotor.speed[0]);
+      spin += (rotor.spin_inertia * (speed + dot(rotor.axis_L, omega))) * rotor.axis_L;
+    }
+    return spin;
+  }
+
+  /// What of the hub's own law does not change with its motion.
+  void set_hub_matrices() {
+    hub_alone_.J = mass_.J;
+    hub_alone_.H = cross_matrix(mass_.moment);
+    hub_alone_.M = Sym<H>::isotropic(mass_.mass);
+    hub_ = hub_alone_;
+  }
+
+  void begin_hub_law(const Vec<H>& omega, const Vec<H>& spin) {
+    if (!is_rigid_) hub_ = hub_alone_;
+    hub_.n0 = cross(omega, mass_.J * omega + spin) + (motor_torque_ - held_.torque);
+    hub_.f0 = cross(omega, cross(omega, mass_.moment)) - held_.force;
+  }
+
+  /// The law of the whole vehicle about B. @return the common acceleration of the falling frame
+  /// [m/s^2]
+  Vec<H> sum_laws(const Vec<H>& r_BN_N, const Mat<H>& dcm_NB) {
+    const bool is_uniform = plan_.law == GravityLaw::kSystemCom;
+    Vec<H> r_CB;
+    if (is_uniform || acts_at_center_) r_CB = center_of_mass();
+    const Vec<H>* center = acts_at_center_ ? &r_CB : nullptr;
+    if (acts_at_center_) {
+      hub_.f0 -= held_at_center_;
+      hub_.n0 -= cross(r_CB, held_at_center_);
+    }
+    if (plan_.law == GravityLaw::kNone) {
+      add_limbs(nullptr, center);
+      return {};
+    }
+    const Field<H> field(mu_, is_uniform ? r_BN_N + dcm_NB * r_CB : r_BN_N,
+                         plan_.law == GravityLaw::kBodyGradient);
+    if (has_elements_) {
+      const Field<H> field_B = field.in_axes(dcm_NB);
+      pull_on_hub(field_B);
+      add_limbs(&field_B, center);
+    } else {
+      add_limbs(nullptr, center);
+    }
+    return field.at_hub();
+  }
+
+  Vec<H> center_of_mass() const {
+    Moment<H> sum{mass_.mass, mass_.moment};
+    for_each_group([&sum](const auto& group) {
+      const Moment<S> limb = group.limb.moment();
+      const auto both = [&group](const S& value) { return gathered<H, S>(value, group.is_full); };
+      sum += {both(limb.mass), {both(limb.moment.x), both(limb.moment.y), both(limb.moment.z)}};
+    });
+    return (H(1.0) / sum.mass) * sum.moment;
+  }
+
+  void pull_on_hub(const Field<H>& field) {
+    for (const Pulled<H>& element : elements_) {
+      const Vec<H> force = element.mass * field.difference(element.r_EL);
+      hub_.f0 -= force;
+      hub_.n0 -= cross(element.r_EL, force);
+      if (field.has_gradient) hub_.n0 -= field.gradient_torque(element.r_EL, element.I);
+    }
+  }
+
+  void add_limbs(const Field<H>* field, const Vec<H>* r_CB) {
+    if (field == nullptr && r_CB == nullptr) {
+      for_each_group(
+          [this](auto& group) { add(group.limb.contribute(nullptr, nullptr), group.is_full); });
+      return;
+    }
+    Field<S> field_S;
+    Vec<S> r_CB_S;
+    if (field != nullptr) {
+      field_S = {S(field->mu), spread(field->r), S(field->inverse_r2), S(field->strength),
+                 field->has_gradient};
+    }
+    if (r_CB != nullptr) r_CB_S = spread(*r_CB);
+    for_each_group([&](auto& group) {
+      add(group.limb.contribute(field == nullptr ? nullptr : &field_S,
+                                r_CB == nullptr ? nullptr : &r_CB_S),
+          group.is_full);
+    });
+  }
+
+  void add(const Law<S>& law, bool is_full) {
+    const auto both = [is_full](const S& value) { return gathered<H, S>(value, is_full); };
+    const auto vec = [&both](const Vec<S>& v) { return Vec<H>{both(v.x), both(v.y), both(v.z)}; };
+    const auto sym = [&both](const Sym<S>& m) {
+      return Sym<H>{both(m.xx), both(m.yy), both(m.zz), both(m.xy), both(m.xz), both(m.yz)};
+    };
+    hub_.J += sym(law.J);
+    hub_.M += sym(law.M);
+    hub_.H += {vec(law.H.x), vec(law.H.y), vec(law.H.z)};
+    hub_.n0 += vec(law.n0);
+    hub_.f0 += vec(law.f0);
+  }
+
+  const Plan& plan_;  // of lane 0, for what all share
+  Layout layout_;
+  H mu_{};
+  LinkMass<H> mass_;
+  std::vector<Pulled<H>> elements_;
+  std::vector<RotorOn<H, H>> rotors_;
+  Pull<H> held_;
+  Vec<H> held_at_center_;
+  bool acts_at_center_ = false;
+  Vec<H> motor_torque_;  // of all rotors on the hub, on the rotors
+  std::vector<Group<Point<H, S>>> points_;
+  std::vector<Group<Limb<H, S>>> limbs_;
+  bool is_rigid_ = false;      // no limbs, no draining: factored once
+  bool turns_alone_ = false;   // see turn_alone()
+  bool has_elements_ = false;  // that feel another field than B does
+  HubFactors factors_;
+  Law<H> hub_alone_, hub_;
+};
+
+}  // namespace twincraft::bsm::TWINCRAFT_KERNEL

@@ -1,0 +1,166 @@
+// Claims about the kernel's scalars: every instruction set gives the same accelerations, every lane
+// of a batch those of a single spacecraft, and sines are good to the last digits.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "runtime/bsm/lanes.h"
+#include "runtime/integrate/runge_kutta.h"
+#include "tests/support/allocation_counter.h"
+#include "tests/support/kernel_of.h"
+
+namespace twincraft {
+namespace {
+
+using bsm::InstructionSet;
+using test::KernelOf;
+using test::OracleState;
+
+std::vector<InstructionSet> sets_of_this_processor() {
+  std::vector<InstructionSet> sets;
+  for (const InstructionSet set :
+       {InstructionSet::kPortable, InstructionSet::kAvx2, InstructionSet::kAvx512}) {
+    if (set <= bsm::best_instruction_set()) sets.push_back(set);
+  }
+  return sets;
+}
+
+TEST(Lanes, HaveSinesGoodToTheLastDigits) {
+  using bsm::portable::Pair;
+  double worst = 0.0;
+  for (int i = -20000; i < 20000; ++i) {
+    const double angle = 1.2345e-2 * i;
+    Pair pair(angle);
+    bsm::portable::set_lane(pair, 1, 1000.0 * angle);
+    const auto [sine, cosine] = bsm::portable::sine_cosine(pair);
+    for (const std::size_t lane : {0u, 1u}) {
+      const double at = bsm::portable::lane(pair, lane);
+      worst = std::max(worst, std::abs(bsm::portable::lane(sine, lane) - std::sin(at)));
+      worst = std::max(worst, std::abs(bsm::portable::lane(cosine, lane) - std::cos(at)));
+    }
+  }
+  EXPECT_LT(worst, 2.3e-16);  // one digit in the last place of a number below one
+}
+
+TEST(InstructionSets, GiveTheSameAccelerations) {
+  std::mt19937_64 random(41);
+  for (int trial = 0; trial < 100; ++trial) {
+    const Assembly assembly = test::random_assembly(random, 1 + trial % 10, trial % 3);
+    const OracleState state = test::random_state(random, assembly);
+    const Gravity gravity{1.0e4, GravityLaw::kBodyGradient, GravityLaw::kNone};
+    const bsm::HeldInputs held = test::inputs_of(assembly);
+    const Vector3d r_BN(30.0, -40.0, 20.0);
+    KernelOf portable(assembly, ChainPath::kPlanar, gravity, InstructionSet::kPortable);
+    const Eigen::VectorXd expected = portable.accelerations(state, held, r_BN);
+    for (const InstructionSet set : sets_of_this_processor()) {
+      KernelOf other(assembly, ChainPath::kPlanar, gravity, set);
+      EXPECT_LT((other.accelerations(state, held, r_BN) - expected).norm(), 1e-12 * expected.norm())
+          << name_of(set);
+    }
+  }
+}
+
+/// Many spacecraft of one structure, in lanes.
+struct Fleet {
+  std::vector<Assembly> assemblies;
+  std::vector<OracleState> states;
+  std::vector<bsm::Plan> plans;
+  std::vector<bsm::HeldInputs> held;
+  std::vector<const bsm::Plan*> plan_of;
+  std::vector<const bsm::HeldInputs*> held_of;
+
+  Fleet(std::size_t count, int joints, int rotors, unsigned seed) {
+    for (std::size_t l = 0; l < count; ++l) {
+      // The same numbers but for what differs between the lanes: masses and places.
+      std::mt19937_64 random(seed);
+      Assembly assembly = test::random_assembly(random, joints, rotors);
+      std::mt19937_64 other(seed + 1 + l);
+      std::uniform_real_distribution<double> uniform(0.5, 1.5);
+      for (Link& link : assembly.links) {
+        const double scale = uniform(other);
+        for (MassElement& element : link.elements) {
+          element.mass *= scale;
+          element.I_PntE_L *= scale;
+        }
+        link.joint.r_HP_P += test::random_vector(other, 0.1);
+      }
+      states.push_back(test::random_state(other, assembly));
+      held.push_back(test::inputs_of(assembly));
+      plans.push_back(bsm::make_plan(assembly, AttitudeChart::kMrp, gravity(), {}));
+      assemblies.push_back(std::move(assembly));
+    }
+    for (const bsm::Plan& plan : plans) plan_of.push_back(&plan);
+    for (const bsm::HeldInputs& inputs : held) held_of.push_back(&inputs);
+  }
+  static Gravity gravity() { return {1.0e4, GravityLaw::kBodyCom, GravityLaw::kNone}; }
+};
+
+class KernelOde final : public Ode {
+ public:
+  KernelOde(bsm::Kernel& kernel, int size) : kernel_(kernel), size_(size) {}
+  int size() const override { return size_; }
+  void derivative(double, std::span<const double> state, std::span<double> rate) override {
+    kernel_.derivative(state.data(), rate.data());
+  }
+  void finish_step(std::span<double> state) override { kernel_.finish_step(state.data()); }
+
+ private:
+  bsm::Kernel& kernel_;
+  int size_;
+};
+
+/// One second of RK4 from these states, spacecraft by spacecraft at i * lanes + l.
+Eigen::VectorXd flown(bsm::Kernel& kernel, const Eigen::VectorXd& initial) {
+  KernelOde ode(kernel, static_cast<int>(initial.size()));
+  RungeKutta stepper(kRk4, ode);
+  std::copy(initial.begin(), initial.end(), stepper.state().begin());
+  for (int step = 0; step < 100; ++step) stepper.step(0.01 * step, 0.01);
+  return Eigen::VectorXd::Map(stepper.state().data(), initial.size());
+}
+
+TEST(Batch, FliesEveryLaneAsASingleSpacecraft) {
+  const Vector3d r_BN(30.0, -40.0, 20.0);
+  for (const InstructionSet set : sets_of_this_processor()) {
+    const std::size_t lanes = bsm::batch_lanes(set);
+    const Fleet fleet(lanes, 6, 2, 43);
+    const auto batch = bsm::make_batch_kernel(fleet.plan_of, set);
+    ASSERT_EQ(batch->lanes(), lanes);
+    batch->hold(fleet.plan_of, fleet.held_of);
+    const Eigen::Index size = test::kernel_state(fleet.states[0], r_BN).size();
+    Eigen::MatrixXd side_by_side(static_cast<Eigen::Index>(lanes), size);
+    for (std::size_t l = 0; l < lanes; ++l) {
+      side_by_side.row(static_cast<Eigen::Index>(l)) =
+          test::kernel_state(fleet.states[l], r_BN).transpose();
+    }
+    const Eigen::VectorXd flat = side_by_side.reshaped();
+    const Eigen::VectorXd ends = flown(*batch, flat);
+    for (std::size_t l = 0; l < lanes; ++l) {
+      const auto single = bsm::make_kernel(fleet.plans[l], set);
+      single->hold({&fleet.plan_of[l], 1}, {&fleet.held_of[l], 1});
+      const Eigen::VectorXd end = flown(*single, test::kernel_state(fleet.states[l], r_BN));
+      const Eigen::VectorXd ours =
+          ends.reshaped(static_cast<Eigen::Index>(lanes), size).row(static_cast<Eigen::Index>(l));
+      EXPECT_LT((ours - end).norm(), 1e-14 * end.norm()) << name_of(set) << ", lane " << l;
+    }
+  }
+}
+
+TEST(Batch, TakesNothingFromTheHeapInADerivative) {
+  const InstructionSet set = bsm::best_instruction_set();
+  const Fleet fleet(bsm::batch_lanes(set), 6, 2, 47);
+  const auto batch = bsm::make_batch_kernel(fleet.plan_of, set);
+  batch->hold(fleet.plan_of, fleet.held_of);
+  const Eigen::Index size = test::kernel_state(fleet.states[0]).size();
+  Eigen::VectorXd state =
+      Eigen::VectorXd::Constant(size * static_cast<Eigen::Index>(fleet.plans.size()), 0.1);
+  Eigen::VectorXd rate(state.size());
+  const long before = test::allocation_count();
+  for (int i = 0; i < 10; ++i) {
+    batch->derivative(state.data(), rate.data());
+    batch->finish_step(state.data());
+  }
+  EXPECT_EQ(test::allocation_count(), before);
+}
+
+}  // namespace
+}  // namespace twincraft
