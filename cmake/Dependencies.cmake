@@ -4,6 +4,7 @@ find_package(nlohmann_json 3.11 REQUIRED)
 find_package(yaml-cpp 0.7 REQUIRED)
 find_package(tinyxml2 REQUIRED)
 find_package(CLI11 2.1 REQUIRED)
+find_package(OpenSSL REQUIRED)
 find_package(Threads REQUIRED)
 
 # MuJoCo's own package file on Debian asks for OpenGL and Qhull headers that dynamics does not
@@ -19,3 +20,16 @@ find_library(UDUNITS_LIBRARY udunits2 REQUIRED)
 add_library(udunits_library UNKNOWN IMPORTED)
 set_target_properties(udunits_library PROPERTIES IMPORTED_LOCATION ${UDUNITS_LIBRARY}
                       INTERFACE_INCLUDE_DIRECTORIES ${UDUNITS_INCLUDE_DIR})
+
+# For writing trajectories; Debian's package file of it lists every library it was itself built with.
+find_path(NETCDF_INCLUDE_DIR netcdf_mem.h REQUIRED)
+find_library(NETCDF_LIBRARY netcdf REQUIRED)
+add_library(netcdf_library UNKNOWN IMPORTED)
+set_target_properties(netcdf_library PROPERTIES IMPORTED_LOCATION ${NETCDF_LIBRARY}
+                      INTERFACE_INCLUDE_DIRECTORIES ${NETCDF_INCLUDE_DIR})
+
+# What reports show their figures with. Debian's builds; the terms lie in the package's documentation.
+find_path(DYGRAPHS_FOLDER dygraph.min.js PATHS /usr/share/javascript/dygraphs REQUIRED)
+find_path(THREE_FOLDER build/three.min.js PATHS /usr/share/javascript/three REQUIRED)
+find_file(DYGRAPHS_LICENCE copyright PATHS /usr/share/doc/libjs-dygraphs NO_DEFAULT_PATH REQUIRED)
+find_file(THREE_LICENCE copyright PATHS /usr/share/doc/libjs-three NO_DEFAULT_PATH REQUIRED)

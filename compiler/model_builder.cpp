@@ -129,6 +129,10 @@ Mount ModelBuilder::add_fixed_body(const Mount& parent, const std::string& name,
 
 Mount ModelBuilder::find_mount(const std::string& name) const { return mounts_.at(name); }
 
+void ModelBuilder::draw(const Mount& mount, const Look& look) {
+  at(model_.tree.bodies, mount.body).look = look;
+}
+
 void ModelBuilder::add_mass(const Mount& mount, const MassElement& element) {
   TreeBody& body = at(model_.tree.bodies, mount.body);
   if (body.elements.empty() && !(element.mass > 0.0)) {

@@ -64,6 +64,9 @@ class ModelBuilder {
   /// Put mass on a mount, in both halves. @pre the mount's first element has a positive mass
   void add_mass(const Mount& mount, const MassElement& element);
 
+  /// Say what the body of a mount looks like, where its component knows.
+  void draw(const Mount& mount, const Look& look);
+
   /// Give the tree body of a mount an inertia [kg m^2] that the analytic half does not have.
   void add_token_inertia(const Mount& mount, double inertia);
 

@@ -16,7 +16,9 @@
 #include "runtime/interrupt.h"
 #include "runtime/members.h"
 #include "runtime/report/csv.h"
+#include "runtime/report/html/document.h"
 #include "runtime/report/json.h"
+#include "runtime/report/netcdf.h"
 #include "runtime/report/progress.h"
 #include "runtime/report/study_table.h"
 #include "runtime/report/table.h"
@@ -27,6 +29,7 @@ namespace {
 struct Options {
   CompileRequest request;
   std::string folder;  // empty: no files
+  bool netcdf = false;
   std::string step, integrator, duration;
   std::string engine = "both";
   int trials = RunOptions{}.trials;
@@ -43,8 +46,10 @@ void describe_run(CLI::App& app, Options& options) {
   app.add_option("spec", options.request.file, "spacecraft spec, or - for standard input")
       ->type_name("SPEC")
       ->required();
-  app.add_option("-o,--output", options.folder, "write report.json, bsm.csv and mujoco.csv here")
+  app.add_option("-o,--output", options.folder, "write report.json, report.html and CSV files here")
       ->type_name("DIR");
+  app.add_flag("--netcdf", options.netcdf, "also write trajectories as netCDF-4, with -o")
+      ->needs(app.get_option("--output"));
   app.add_option("--set", options.request.overrides, "change the spec first; repeatable")
       ->type_name("PATH=VALUE")
       ->allow_extra_args(false);
@@ -139,17 +144,23 @@ std::filesystem::path folder_of(std::size_t index, const Options& options) {
 std::string write_trajectories(std::size_t index, const ReportedMember& member,
                                const Options& options) {
   std::vector<OutputFile> files;
-  for (const EngineRun& run : member.result.engines)
-    if (!run.trajectory.samples.empty())
-      files.push_back({(folder_of(index, options) / (run.name + ".csv")).string(),
-                       trajectory_csv(member.bundle.model, run.trajectory)});
+  const std::filesystem::path folder = folder_of(index, options);
+  for (const EngineRun& run : member.result.engines) {
+    if (run.trajectory.samples.empty()) continue;
+    files.push_back({(folder / (run.name + ".csv")).string(),
+                     trajectory_csv(member.bundle.model, run.trajectory)});
+    if (options.netcdf)
+      files.push_back({(folder / (run.name + ".nc")).string(),
+                       trajectory_netcdf(member.bundle, run, provenance())});
+  }
   return files.empty() ? std::string() : write_files(files);
 }
 
 int write_report(const Report& report, const Options& options) {
   if (options.folder.empty()) return kExitDone;
-  const std::string path = (folder_of(0, options) / "report.json").string();
-  const std::string error = write_files({{path, report_json(report)}});
+  const std::filesystem::path folder = folder_of(0, options);
+  const std::string error = write_files({{(folder / "report.json").string(), report_json(report)},
+                                         {(folder / "report.html").string(), report_html(report)}});
   if (error.empty()) return kExitDone;
   complain(error);
   return kExitInputOutput;
@@ -204,8 +215,11 @@ MemberSpec compile_member(const Study& study, std::size_t index) {
 
 /// The whole study, or the spec as the one member there is.
 std::vector<ReportedMember> run_members(CompileResult& compiled, const Options& options,
-                                        const RunOptions& run, std::string& write_error) {
+                                        const RunOptions& run, ProgressBar& bar,
+                                        std::string& write_error) {
   const auto finished = [&](std::size_t index, const ReportedMember& member) {
+    if (compiled.study && run.progress)
+      bar.leave(member_line(index, member, compiled.study->plan()));
     if (options.folder.empty() || !write_error.empty()) return;
     write_error = write_trajectories(index, member, options);
   };
@@ -224,7 +238,7 @@ std::vector<ReportedMember> run_members(CompileResult& compiled, const Options& 
 }
 
 int simulate(CompileResult compiled, const Options& options) {
-  ProgressBar bar(stderr);
+  ProgressBar bar(stderr, compiled.study ? 0.0 : compiled.bundle->model.simulation.duration);
   const RunOptions run = run_options(options, bar);
   const std::string refusal =
       compiled.study ? std::string() : reference_refusal(compiled.bundle->model, run);
@@ -233,7 +247,7 @@ int simulate(CompileResult compiled, const Options& options) {
     return kExitFindings;
   }
   std::string write_error;
-  Report report{provenance(), run_members(compiled, options, run, write_error)};
+  Report report{provenance(), run_members(compiled, options, run, bar, write_error)};
   bar.clear();
   if (compiled.study) report.study = compiled.study->plan();
   if (report.members.empty()) return exit_code(report);  // interrupted before the first

@@ -151,6 +151,22 @@ Joint hinge_joint(const PanelSpec& panel, std::size_t i) {
   return joint;
 }
 
+/// From hinge to hinge. Where only an inertia is given, as wide as it says about the outboard axis.
+Look segment_look(const PanelSpec& panel) {
+  const ShapeSpec* given = std::get_if<ShapeSpec>(&panel.inertia);
+  const double length = segment_length(panel);
+  const double Ix = segment_inertia(panel)(0, 0);
+  const double width = std::sqrt(12.0 * Ix / segment_mass(panel));
+  const double thin = 0.01 * panel.length;
+  Look look;
+  look.part = Look::Part::kPanel;
+  look.half = 0.5 * Vector3d(length, width, thin);
+  if (given != nullptr && given->width) look.half.y() = *given->width / 2.0;
+  if (given != nullptr && given->thickness) look.half.z() = *given->thickness / 2.0;
+  look.pos.x() = length / 2.0;
+  return look;
+}
+
 }  // namespace
 
 const Table<PanelSpec>& panel_table() {
@@ -231,6 +247,7 @@ void lower(const PanelSpec& panel, ModelBuilder& builder) {
     const std::string name = fmt::format("{}.{}", panel.name, i + 1);
     mount = builder.add_link(mount, name, hinge_joint(panel, i));
     builder.add_mass(mount, {name, segment_mass(panel), middle, inertia});
+    builder.draw(mount, segment_look(panel));
     builder.add_coordinate(Coordinate::Kind::kPanel, name, mount.link, of_root(panel.angle, i),
                            of_root(panel.rate, i));
   }

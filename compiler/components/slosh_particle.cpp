@@ -54,6 +54,7 @@ void lower(const ParticleSpec& spec, const TankSpec* tank, ModelBuilder& builder
   point.mass = spec.mass;
   point.tank = tank == nullptr ? -1 : builder.find_tank(tank->name);
   builder.add_mass(mount, point);
+  builder.draw(mount, {.form = Look::Form::kSphere, .part = Look::Part::kSlosh});
   builder.add_token_inertia(mount, builder.controls().particle_inertia);
   builder.add_coordinate(Coordinate::Kind::kParticle, spec.name, mount.link, spec.displacement,
                          spec.rate);

@@ -110,6 +110,8 @@ void lower(const PendulumSpec& spec, const TankSpec* tank, ModelBuilder& builder
   element.I_PntE_L = spec.inertia * Matrix3d::Identity();
   element.tank = tank == nullptr ? -1 : builder.find_tank(tank->name);
   builder.add_mass(bob, element);
+  builder.draw(bob,
+               {.form = Look::Form::kSphere, .part = Look::Part::kSlosh, .pos = element.r_EL_L});
   builder.add_token_inertia(bob, builder.controls().bob_inertia);
   builder.add_coordinate(Coordinate::Kind::kPendulum, spec.name + ".phi", phi_link,
                          spec.angles.at(0), spec.rates.at(0));

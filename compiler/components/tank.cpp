@@ -46,6 +46,20 @@ const Table<TankShapeSpec>& shape_table() {
   return table;
 }
 
+Look look_of(const TankShapeSpec& shape) {
+  Look look;
+  look.part = Look::Part::kTank;
+  if (shape.sphere) {
+    look.form = Look::Form::kSphere;
+    look.half.x() = shape.sphere->radius;
+  } else if (shape.cylinder) {
+    look.form = Look::Form::kCylinder;
+    look.half = Vector3d(shape.cylinder->radius, shape.cylinder->length / 2.0, 0.0);
+    look.quat = Quaterniond::FromTwoVectors(Vector3d::UnitZ(), shape.cylinder->axis);
+  }
+  return look;
+}
+
 }  // namespace
 
 const Table<TankSpec>& tank_table() {
@@ -119,6 +133,7 @@ void lower(const TankSpec& spec, double slosh, const Schedule& mass_flow, ModelB
                                              spec.position, Matrix3d::Identity());
   builder.add_mass(mount,
                    {spec.name, bulk, Vector3d::Zero(), solid_inertia(spec.shape, bulk), tank});
+  builder.draw(mount, look_of(spec.shape));
 }
 
 }  // namespace twincraft

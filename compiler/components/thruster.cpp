@@ -107,6 +107,7 @@ void lower(const ThrusterSpec& spec, ModelBuilder& builder) {
   Load load;
   load.name = spec.name;
   load.r_FL_L = spec.position;
+  load.is_thruster = true;
   const Schedule thrust = thrust_of(spec);
   for (int i = 0; i < 3; ++i) {
     // A component that is always zero makes no events.

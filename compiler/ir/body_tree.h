@@ -3,6 +3,7 @@
 // Tested by tests/compiler/model_builder_test.cpp and verify_test.cpp.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,17 @@ struct TreeJoint {
   double stiffness = 0.0;
   double damping = 0.0;
   double springref = 0.0;
+};
+
+/// What a body looks like to someone; the dynamics do not know it.
+struct Look {
+  enum class Form { kBox, kSphere, kCylinder };
+  enum class Part { kBody, kPanel, kTank, kSlosh };
+  Form form = Form::kBox;
+  Part part = Part::kBody;
+  Vector3d half = Vector3d::Zero();            // [m] half sides; radius; radius and half length
+  Vector3d pos = Vector3d::Zero();             // [m] its middle, body axes
+  Quaterniond quat = Quaterniond::Identity();  // of the shape to the body; a cylinder is along z
 };
 
 struct TreeBody {
@@ -37,6 +49,8 @@ struct TreeBody {
   // What gravity pulls on: the ledger's elements on this body plus token masses that were added on
   // top. A token mass taken back out of its mount is no element.
   std::vector<MassElement> elements;
+  // Nothing: the box that its inertia suggests.
+  std::optional<Look> look = {};
 };
 
 /// A wheel of the tree: a body with one hinge whose motor torque is an input.

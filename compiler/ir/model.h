@@ -31,6 +31,7 @@ struct Load {
   std::array<Schedule, 3> torque_L;  // [N m]
   // Where the force acts: a point from the link's origin [m], or the system centre of mass.
   std::optional<Vector3d> r_FL_L;
+  bool is_thruster = false;  // something flows out against the force
 };
 
 enum class GravityLaw {

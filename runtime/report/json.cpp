@@ -229,7 +229,7 @@ Json studies_json(const Report& report) {
 
 }  // namespace
 
-std::string report_json(const Report& report) {
+Json report_value(const Report& report) {
   Json json{{"format", "twincraft-report/1"},
             {"complete", report.complete()},
             {"verdict", verdict_name(report.verdict())},
@@ -239,7 +239,11 @@ std::string report_json(const Report& report) {
             {"studies", studies_json(report)}};
   for (const ReportedMember& member : report.members)
     json["members"].push_back(member_json(member));
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json;
+}
+
+std::string report_json(const Report& report) {
+  return report_value(report).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace twincraft

@@ -23,13 +23,17 @@ double seconds(std::chrono::steady_clock::duration time) {
 
 }  // namespace
 
-std::string progress_line(std::string_view phase, double fraction, double elapsed_seconds) {
+std::string progress_line(std::string_view phase, double fraction, double elapsed_seconds,
+                          double duration) {
   fraction = std::clamp(fraction, 0.0, 1.0);
   const int filled = static_cast<int>(fraction * kCells);
   std::string line = fmt::format("{:<7} [{}{}] {:>3.0f} %", phase, std::string(filled, '#'),
                                  std::string(kCells - filled, '.'), 100.0 * fraction);
+  if (duration > 0.0)
+    line += fmt::format("  t = {:.4g} s of {:.4g} s", fraction * duration, duration);
   if (fraction >= 0.02 && fraction < 1.0)
-    line += fmt::format("  {} left", duration(elapsed_seconds * (1.0 - fraction) / fraction));
+    line += fmt::format("  {} left",
+                        twincraft::duration(elapsed_seconds * (1.0 - fraction) / fraction));
   return line;
 }
 
@@ -40,11 +44,18 @@ void ProgressBar::show(std::string_view phase, double fraction) {
     phase_begin_ = now;
   }
   if (now - begin_ < kQuiet || now - last_drawn_ < kInterval) return;
-  fmt::print(terminal_, "{}{}", kEraseLine,
-             progress_line(phase, fraction, seconds(now - phase_begin_)));
+  const bool simulates = phase == "bsm" || phase == "mujoco";
+  fmt::print(
+      terminal_, "{}{}", kEraseLine,
+      progress_line(phase, fraction, seconds(now - phase_begin_), simulates ? duration_ : 0.0));
   std::fflush(terminal_);
   last_drawn_ = now;
   drawn_ = true;
+}
+
+void ProgressBar::leave(std::string_view line) {
+  clear();
+  fmt::print(terminal_, "{}\n", line);
 }
 
 void ProgressBar::clear() {

@@ -9,23 +9,31 @@
 
 namespace twincraft {
 
-/// `mujoco  [#########...........]  45 %  12.1 s left`; no estimate before 2 % or when done.
-std::string progress_line(std::string_view phase, double fraction, double elapsed_seconds);
+/// `mujoco  [#########...........]  45 %  t = 54 s of 120 s  12.1 s left`; no estimate before 2 %
+/// or when done.
+/// @param duration  of what is simulated [s]; 0: nothing is
+std::string progress_line(std::string_view phase, double fraction, double elapsed_seconds,
+                          double duration = 0.0);
 
 /// Draws over itself; silent in its first half second, so that short runs show nothing.
 class ProgressBar {
  public:
-  explicit ProgressBar(std::FILE* terminal) : terminal_(terminal) {}
+  /// @param duration  of the run that engines simulate [s]; 0: no single run
+  explicit ProgressBar(std::FILE* terminal, double duration = 0.0)
+      : terminal_(terminal), duration_(duration) {}
   ~ProgressBar() { clear(); }
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
   void show(std::string_view phase, double fraction);
+  /// A line that stays, above the bar.
+  void leave(std::string_view line);
   void clear();
 
  private:
   using Clock = std::chrono::steady_clock;
   std::FILE* terminal_;
+  double duration_;
   std::string phase_;
   Clock::time_point begin_ = Clock::now();  // of everything
   Clock::time_point phase_begin_ = begin_;

@@ -296,6 +296,19 @@ std::string verdict_line(const Report& report, bool colour) {
 
 }  // namespace
 
+std::string member_line(std::size_t index, const ReportedMember& member, const StudyPlan& plan) {
+  std::string words = plan.is_work_precision ? configuration_words(member) : "";
+  for (const std::string& path : plan.paths)
+    if (const Setting* setting = find_setting(member.settings, path))
+      words += fmt::format("{}{} {}", words.empty() ? "" : ", ", last_step(path),
+                           setting_cell(*setting));
+  const std::size_t width = fmt::formatted_size("{}", plan.members);
+  std::string line = fmt::format("{:>{}} of {}  {}", index + 1, width, plan.members, words);
+  if (const Metric* attitude = find_metric(member.result, "attitude_deg"))
+    line += "  attitude " + metric_cell(member, attitude);
+  return fmt::format("{}  {}", line, verdict_cell(member.result));
+}
+
 std::string study_table(const Report& report, bool colour) {
   const Model& model = report.members.front().bundle.model;
   const StudyPlan& plan = *report.study;

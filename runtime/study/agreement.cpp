@@ -180,6 +180,15 @@ double principal_angle(const Quaterniond& a, const Quaterniond& b) {
   return 2.0 * std::atan2(vec.norm(), std::abs(scalar));
 }
 
+MetricCurves metric_curves(const Model& model, const Trajectory& a, const Trajectory& b) {
+  MetricCurves all{common_samples(a, b), {}};
+  for (const MetricLaw& law : laws_of(model))
+    all.curves.push_back({law.key, [law, &a, &b](std::size_t sample) {
+                            return law.unit * law.difference(a.samples[sample], b.samples[sample]);
+                          }});
+  return all;
+}
+
 Comparison compare(const Model& model, const Trajectory& a, const Trajectory& b) {
   Comparison comparison = measure_all(laws_of(model), a, b);
   const bool both_complete =

@@ -5,6 +5,7 @@
 // Tested by tests/runtime/agreement_test.cpp.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -43,6 +44,19 @@ struct Comparison {
   bool same_times = false;      // both trajectories were sampled at the same instants throughout
   Verdict verdict = Verdict::kNotJudged;
 };
+
+/// A metric as it goes, in the unit its key ends in; valid as long as the trajectories are.
+struct MetricCurve {
+  std::string key;
+  std::function<double(std::size_t sample)> at;
+};
+
+/// What compare() takes the maxima of. Sample i is the i-th of either trajectory.
+struct MetricCurves {
+  std::size_t samples = 0;  // from the start, that both have
+  std::vector<MetricCurve> curves;
+};
+MetricCurves metric_curves(const Model& model, const Trajectory& a, const Trajectory& b);
 
 /// Compares the samples both trajectories have, from the start to the first that differ in time.
 Comparison compare(const Model& model, const Trajectory& a, const Trajectory& b);

@@ -34,24 +34,36 @@ struct Scales {
 
 }  // namespace
 
+ConservationCurve::ConservationCurve(const Trajectory& trajectory) : trajectory_(&trajectory) {
+  const Scales scales(trajectory);
+  energy_scale_ = scales.energy_scale();
+  momentum_scale_ = scales.momentum.maximum;
+  H_scale_ = scales.H.maximum;
+}
+
+Conservation ConservationCurve::at(std::size_t sample) const {
+  const Observation& start = trajectory_->samples.front();
+  const Observation& now = trajectory_->samples[sample];
+  const Books& books = trajectory_->books[sample];
+  // Change first, then the books: the totals may be far larger than either.
+  const double gained = (now.kinetic - start.kinetic) + (now.potential - start.potential);
+  const Vector3d momentum = now.momentum - start.momentum - books.impulse_N;
+  const Vector3d H = now.H_PntC_N - start.H_PntC_N - books.angular_impulse_N;
+  return {relative(std::abs(gained - books.work), energy_scale_),
+          relative(momentum.norm(), momentum_scale_), relative(H.norm(), H_scale_)};
+}
+
 Conservation conservation_of(const Trajectory& trajectory) {
   if (trajectory.samples.empty()) return {};
-  const Observation& start = trajectory.samples.front();
+  const ConservationCurve curve(trajectory);
   Peak energy, momentum, angular_momentum;
   for (std::size_t i = 0; i < trajectory.samples.size(); ++i) {
-    const Observation& now = trajectory.samples[i];
-    const Books& books = trajectory.books[i];
-    // Change first, then the books: the totals may be far larger than either.
-    const double gained = (now.kinetic - start.kinetic) + (now.potential - start.potential);
-    energy.see(std::abs(gained - books.work), now.time);
-    momentum.see((now.momentum - start.momentum - books.impulse_N).norm(), now.time);
-    angular_momentum.see((now.H_PntC_N - start.H_PntC_N - books.angular_impulse_N).norm(),
-                         now.time);
+    const Conservation now = curve.at(i);
+    energy.see(now.energy, trajectory.samples[i].time);
+    momentum.see(now.momentum, trajectory.samples[i].time);
+    angular_momentum.see(now.angular_momentum, trajectory.samples[i].time);
   }
-  const Scales scales(trajectory);
-  return {relative(energy.maximum, scales.energy_scale()),
-          relative(momentum.maximum, scales.momentum.maximum),
-          relative(angular_momentum.maximum, scales.H.maximum)};
+  return {energy.maximum, momentum.maximum, angular_momentum.maximum};
 }
 
 }  // namespace twincraft

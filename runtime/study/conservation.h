@@ -15,6 +15,18 @@ struct Conservation {
   double angular_momentum = 0.0;  // |H - H0 - angular impulse| / max H_scale, about C
 };
 
+/// The same balances as they go; valid as long as the trajectory is.
+/// @pre one entry of books per sample, at least one
+class ConservationCurve {
+ public:
+  explicit ConservationCurve(const Trajectory& trajectory);
+  Conservation at(std::size_t sample) const;
+
+ private:
+  const Trajectory* trajectory_;
+  double energy_scale_, momentum_scale_, H_scale_;
+};
+
 /// A trajectory without samples has nothing to lose: all zero. A NaN stays a NaN.
 /// @pre one entry of books per sample
 Conservation conservation_of(const Trajectory& trajectory);

@@ -204,6 +204,16 @@ TEST_F(Scsim, ExitsWithOneForAReferenceThatDoesNotApply) {
   EXPECT_THAT(result.err, HasSubstr("spin_up"));
 }
 
+TEST_F(Scsim, WritesAPageToLookAtAndNetcdfWhenAskedTo) {
+  EXPECT_EQ(run_spinner({"--no-timing"}).exit_code, 0);
+  EXPECT_THAT(folder.read("out/report.html"), HasSubstr("<span id=\"verdict\">The engines agree<"));
+  EXPECT_FALSE(folder.has("out/bsm.nc"));
+  EXPECT_EQ(run_spinner({"--no-timing", "--netcdf"}).exit_code, 0);
+  for (const char* file : {"out/bsm.nc", "out/mujoco.nc"})
+    EXPECT_EQ(folder.read(file).substr(1, 3), "HDF") << file;
+  EXPECT_EQ(run({spinner, "--netcdf"}).exit_code, 2);  // into which folder?
+}
+
 TEST_F(Scsim, ExitsWithThreeForAMissingFileOrAnUnwritableFolder) {
   EXPECT_EQ(run({folder.path() + "/missing.yaml"}).exit_code, 3);
   const ProgramResult result = run({spinner, "--no-timing", "-o", spinner + "/out"});

@@ -46,6 +46,16 @@ class ScsimStudy : public testing::Test {
   TemporaryFolder folder;
 };
 
+TEST_F(ScsimStudy, SaysALineAsEachMemberEndsButNotIntoAPipe) {
+  const std::string spec = kModels + "studies/orbit_steps.yaml";
+  EXPECT_EQ(run({spec, "--no-timing"}).err, "");
+  const ProgramResult told = run({spec, "--no-timing", "--progress", "always"});
+  for (const char* line :
+       {"1 of 5  step 40 s  agree\n", "2 of 5  step 20 s  agree\n", "5 of 5  step 2.5 s  agree\n"})
+    EXPECT_THAT(told.err, HasSubstr(line));
+  EXPECT_EQ(run({spec, "--no-timing", "--progress", "always", "--quiet"}).err, "");
+}
+
 TEST_F(ScsimStudy, FindsTheFourthOrderOfAnOrbit) {
   const ProgramResult result = run({kModels + "studies/orbit_steps.yaml", "--no-timing"});
   EXPECT_EQ(result.exit_code, 0) << result.out << result.err;

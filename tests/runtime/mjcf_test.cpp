@@ -2,9 +2,12 @@
 // rounding or an idealisation would make it refuse, and finds the spec's start in the keyframe.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <tinyxml2.h>
 
 #include <cmath>
+#include <functional>
 #include <map>
+#include <set>
 
 #include "compiler/emit_mjcf.h"
 #include "runtime/mujoco/handles.h"
@@ -113,6 +116,74 @@ TEST(Mjcf, MarksThePointOfEachLoad) {
   EXPECT_EQ(m->site_bodyid[jet], mj_name2id(m.get(), mjOBJ_BODY, "hand"));
   EXPECT_EQ(m->site_pos[3 * jet], 0.5);
   EXPECT_EQ(mj_name2id(m.get(), mjOBJ_SITE, "tug"), -1) << "acts at the system centre of mass";
+}
+
+/// The MJCF without anything that is there to be looked at.
+std::string bare(const std::string& mjcf) {
+  tinyxml2::XMLDocument document;
+  EXPECT_EQ(document.Parse(mjcf.c_str()), tinyxml2::XML_SUCCESS);
+  const std::set<std::string> looks = {"geom", "camera", "light", "asset", "visual", "statistic"};
+  const std::function<void(tinyxml2::XMLElement&)> strip = [&](tinyxml2::XMLElement& element) {
+    tinyxml2::XMLElement* child = element.FirstChildElement();
+    while (child != nullptr) {
+      tinyxml2::XMLElement* const next = child->NextSiblingElement();
+      if (looks.contains(child->Name()))
+        element.DeleteChild(child);
+      else
+        strip(*child);
+      child = next;
+    }
+  };
+  strip(*document.RootElement());
+  tinyxml2::XMLPrinter printer;
+  document.Print(&printer);
+  return printer.CStr();
+}
+
+/// At the keyframe, moved on by a step so that every coordinate has left its start.
+std::vector<double> accelerations(const std::string& mjcf) {
+  const MujocoModel m = load_mjcf(mjcf);
+  const MujocoData d = make_data(*m);
+  mj_resetDataKeyframe(m.get(), d.get(), 0);
+  mj_step(m.get(), d.get());
+  mj_forward(m.get(), d.get());
+  return numbers(d->qacc, m->nv);
+}
+
+TEST(Mjcf, MovesTheSameWithAndWithoutWhatIsThereToBeLookedAt) {
+  for (const Model& model : samples()) {
+    SCOPED_TRACE(model.name);
+    const std::string mjcf = emit_mjcf(model);
+    const MujocoModel with = load_mjcf(mjcf), without = load_mjcf(bare(mjcf));
+    EXPECT_GT(with->ngeom, 0);
+    EXPECT_GT(with->nmat, 0);
+    EXPECT_EQ(without->ngeom + without->nmat + without->ncam + without->nlight, 0);
+    EXPECT_EQ(accelerations(mjcf), accelerations(bare(mjcf)));
+  }
+}
+
+TEST(Mjcf, HoldsTheWholeVehicleInItsExtentAndFollowsIt) {
+  const Model model = test::two_chains(8);
+  const MujocoModel m = load_mjcf(emit_mjcf(model));
+  const MujocoData d = make_data(*m);
+  mj_forward(m.get(), d.get());
+  for (int geom = 0; geom < m->ngeom; ++geom) {
+    const Eigen::Map<const Vector3d> middle(d->geom_xpos + 3 * geom);
+    EXPECT_LE(middle.norm() + m->geom_rbound[geom], m->stat.extent * (1.0 + 1e-12));
+  }
+  ASSERT_EQ(m->ncam, 1);
+  EXPECT_EQ(m->cam_mode[0], mjCAMLIGHT_TRACKCOM);
+  // It looks at the vehicle: the way it looks, against the way to the hub.
+  const Eigen::Map<const Vector3d> place(d->cam_xpos);
+  const Vector3d looks(-d->cam_xmat[2], -d->cam_xmat[5], -d->cam_xmat[8]);
+  EXPECT_GT(looks.dot(-place.normalized()), 0.99);
+}
+
+TEST(Mjcf, NamesNoMaterialThatIsNotThere) {
+  for (const Model& model : samples()) {
+    const MujocoModel m = load_mjcf(emit_mjcf(model));
+    for (int geom = 0; geom < m->ngeom; ++geom) EXPECT_GE(m->geom_matid[geom], 0);
+  }
 }
 
 // MuJoCo's own test A + B >= C has no tolerance, so a flat plate fails it by an ulp.

@@ -288,6 +288,8 @@ TEST(Words, CallPanelAnglesWhatTheyAre) {
 
 TEST(Progress, EstimatesWhatIsLeft) {
   EXPECT_EQ(progress_line("bsm", 0.25, 3.0), "bsm     [#####...............]  25 %  9 s left");
+  EXPECT_EQ(progress_line("bsm", 0.25, 3.0, 120.0),
+            "bsm     [#####...............]  25 %  t = 30 s of 120 s  9 s left");
   EXPECT_EQ(progress_line("timing", 1.0, 3.0), "timing  [####################] 100 %");
 }
 

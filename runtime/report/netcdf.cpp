@@ -1,0 +1,167 @@
+// Variables are listed once, then defined, then written. Tested by tests/runtime/netcdf_test.cpp.
+#include "runtime/report/netcdf.h"
+
+#include <fmt/format.h>
+#include <netcdf.h>
+#include <netcdf_mem.h>
+
+#include <array>
+#include <cstdlib>
+#include <functional>
+#include <stdexcept>
+#include <vector>
+
+namespace twincraft {
+namespace {
+
+void check(int status) {
+  if (status != NC_NOERR) throw std::runtime_error(fmt::format("netcdf: {}", nc_strerror(status)));
+}
+
+struct Variable {
+  std::string name, unit, words;
+  int components = 1;  // 1, 3 or 4
+  std::function<double(const Observation&, int component)> value;
+  int id = -1;
+};
+
+Variable vector_variable(const char* name, const char* unit, const char* words,
+                         Vector3d Observation::*vector) {
+  return {name, unit, words, 3, [vector](const Observation& o, int i) { return (o.*vector)[i]; }};
+}
+
+Variable scalar(std::string name, const char* unit, std::string words,
+                std::function<double(const Observation&)> value) {
+  return {std::move(name), unit, std::move(words), 1,
+          [value = std::move(value)](const Observation& o, int) { return value(o); }};
+}
+
+void add_coordinate(const Coordinate& coordinate, std::vector<Variable>& variables) {
+  const std::string& name = coordinate.name;
+  const auto index = static_cast<std::size_t>(coordinate.index);
+  if (coordinate.kind == Coordinate::Kind::kWheel) {
+    variables.push_back(scalar(name + ".rate", "rad s-1", "spin relative to the mount",
+                               [index](const Observation& o) { return o.wheel_rate[index]; }));
+    return;
+  }
+  const bool length = coordinate.is_length();
+  variables.push_back(
+      scalar(name + ".position", length ? "m" : "rad", length ? "displacement" : "angle",
+             [index](const Observation& o) { return o.joint_position[index - 1]; }));
+  variables.push_back(scalar(name + ".rate", length ? "m s-1" : "rad s-1",
+                             length ? "speed" : "rate of the angle",
+                             [index](const Observation& o) { return o.joint_rate[index - 1]; }));
+}
+
+std::vector<Variable> variables_of(const Model& model) {
+  std::vector<Variable> variables{
+      scalar("time", "s", "time since the start", [](const Observation& o) { return o.time; }),
+      vector_variable("r_BN_N", "m", "hub origin, inertial axes", &Observation::r_BN_N),
+      vector_variable("v_BN_N", "m s-1", "velocity of the hub origin, inertial axes",
+                      &Observation::v_BN_N),
+      {"q_BN", "1", "quaternion, scalar first, takes hub components to inertial ones", 4,
+       [](const Observation& o, int i) { return i == 0 ? o.q_BN.w() : o.q_BN.vec()[i - 1]; }},
+      vector_variable("omega_BN_B", "rad s-1", "hub rate relative to inertial axes, hub axes",
+                      &Observation::omega_BN_B),
+      vector_variable("r_CN_N", "m", "system centre of mass, inertial axes", &Observation::r_CN_N),
+      vector_variable("v_CN_N", "m s-1", "velocity of the system centre of mass, inertial axes",
+                      &Observation::v_CN_N)};
+  for (const Coordinate& coordinate : model.coordinates) add_coordinate(coordinate, variables);
+  variables.push_back(
+      scalar("mass", "kg", "mass of the vehicle", [](const Observation& o) { return o.mass; }));
+  return variables;
+}
+
+/// A file in memory that is let go of on every way out.
+class File {
+ public:
+  File() { check(nc_create_mem("trajectory.nc", NC_NETCDF4, 0, &id_)); }
+  ~File() {
+    if (open_) nc_abort(id_);
+  }
+  File(const File&) = delete;
+  File& operator=(const File&) = delete;
+
+  int id() const { return id_; }
+
+  int dimension(const char* name, std::size_t length) const {
+    int dimension = -1;
+    check(nc_def_dim(id_, name, length, &dimension));
+    return dimension;
+  }
+
+  void attribute(int variable, const char* name, const std::string& text) const {
+    check(nc_put_att_text(id_, variable, name, text.size(), text.data()));
+  }
+
+  std::string close() {
+    NC_memio memory{};
+    open_ = false;
+    check(nc_close_memio(id_, &memory));
+    std::string bytes(static_cast<const char*>(memory.memory), memory.size);
+    std::free(memory.memory);
+    return bytes;
+  }
+
+ private:
+  int id_ = -1;
+  bool open_ = true;
+};
+
+void describe(const File& file, const Bundle& bundle, const EngineRun& run,
+              const Provenance& provenance) {
+  const auto put = [&](const char* name, const std::string& text) {
+    file.attribute(NC_GLOBAL, name, text);
+  };
+  put("title", bundle.model.name);
+  put("summary", bundle.model.description);
+  put("engine", run.name);
+  put("spec_file", bundle.spec_file);
+  put("spec_sha256", bundle.spec_sha256);
+  put("source", provenance.program);
+  put("git", provenance.git);
+  put("compiler", provenance.compiler);
+  put("compiler_flags", provenance.flags);
+  put("mujoco", provenance.mujoco);
+  put("eigen", provenance.eigen);
+  std::string settings;
+  for (const Setting& setting : bundle.settings)
+    settings += fmt::format("{}={}\n", setting.path, setting.text);
+  put("settings", settings);
+}
+
+void define(const File& file, std::vector<Variable>& variables, std::size_t samples) {
+  const int time = file.dimension("time", samples);
+  const int xyz = file.dimension("xyz", 3), wxyz = file.dimension("wxyz", 4);
+  for (Variable& variable : variables) {
+    const std::array<int, 2> dimensions{time, variable.components == 4 ? wxyz : xyz};
+    const int count = variable.components == 1 ? 1 : 2;
+    check(nc_def_var(file.id(), variable.name.c_str(), NC_DOUBLE, count, dimensions.data(),
+                     &variable.id));
+    if (samples > 0) check(nc_def_var_deflate(file.id(), variable.id, 1, 1, 1));
+    file.attribute(variable.id, "units", variable.unit);
+    file.attribute(variable.id, "long_name", variable.words);
+  }
+  check(nc_enddef(file.id()));
+}
+
+}  // namespace
+
+std::string trajectory_netcdf(const Bundle& bundle, const EngineRun& run,
+                              const Provenance& provenance) {
+  const std::vector<Observation>& samples = run.trajectory.samples;
+  std::vector<Variable> variables = variables_of(bundle.model);
+  File file;
+  describe(file, bundle, run, provenance);
+  define(file, variables, samples.size());
+  std::vector<double> values;
+  for (const Variable& variable : variables) {
+    values.clear();
+    for (const Observation& sample : samples)
+      for (int i = 0; i < variable.components; ++i) values.push_back(variable.value(sample, i));
+    if (!values.empty()) check(nc_put_var_double(file.id(), variable.id, values.data()));
+  }
+  return file.close();
+}
+
+}  // namespace twincraft
