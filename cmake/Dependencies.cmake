@@ -6,6 +6,7 @@ find_package(tinyxml2 REQUIRED)
 find_package(CLI11 2.1 REQUIRED)
 find_package(OpenSSL REQUIRED)
 find_package(Threads REQUIRED)
+find_package(Boost 1.74 REQUIRED)  # headers only
 
 # MuJoCo's own package file on Debian asks for OpenGL and Qhull headers that dynamics does not
 # need, so the library is found directly.

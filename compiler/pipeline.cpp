@@ -168,7 +168,7 @@ class StudyOfSpec : public Study {
         origin_(std::move(origin)) {
     remove_key(base_, "study");
     // The tolerances of a spec are for its own step, not for all those that are tried out.
-    if (members_.plan.is_work_precision) remove_key(base_, "agreement");
+    if (members_.plan.is_work_precision) remove_tolerances();
   }
 
   const StudyPlan& plan() const override { return members_.plan; }
@@ -193,6 +193,12 @@ class StudyOfSpec : public Study {
   }
 
  private:
+  void remove_tolerances() {
+    remove_key(base_, "agreement");
+    for (std::size_t i = 0; i < base_.keys.size(); ++i)
+      if (base_.keys[i].name == "stored") remove_key(base_.items[i], "tolerance");
+  }
+
   std::optional<Node> tree_of(const std::vector<Override>& changes,
                               Diagnostics& diagnostics) const {
     std::optional<Node> root = base_;
@@ -254,7 +260,7 @@ void check_members(const StudyOfSpec& study, Span span, Diagnostics& diagnostics
 }  // namespace
 
 CompileResult compile(const CompileRequest& request, Sources& sources, Diagnostics& diagnostics) {
-  FileText file = read_file(request.file);
+  FileText file = request.text ? FileText{*request.text, {}} : read_file(request.file);
   if (!file.error.empty()) return {.io_error = file.error};
   const std::string name = request.file == "-" ? "<stdin>" : request.file;
   const Source& source = sources.add(name, std::move(file.text));

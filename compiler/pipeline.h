@@ -15,8 +15,9 @@ namespace twincraft {
 
 /// What to compile: a spec's text and what the command line changes in it.
 struct CompileRequest {
-  std::string file;                    // as given; `-` is standard input
-  std::vector<std::string> overrides;  // `PATH=VALUE`
+  std::string file;                      // as given; `-` is standard input
+  std::vector<std::string> overrides;    // `PATH=VALUE`
+  std::optional<std::string> text = {};  // of the spec, when it is no file; `file` is its name then
 };
 
 /// The members of a study, each compiled when it is asked for; none is kept. Lives no longer than

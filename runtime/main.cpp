@@ -240,12 +240,6 @@ std::vector<ReportedMember> run_members(CompileResult& compiled, const Options& 
 int simulate(CompileResult compiled, const Options& options) {
   ProgressBar bar(stderr, compiled.study ? 0.0 : compiled.bundle->model.simulation.duration);
   const RunOptions run = run_options(options, bar);
-  const std::string refusal =
-      compiled.study ? std::string() : reference_refusal(compiled.bundle->model, run);
-  if (!refusal.empty()) {
-    complain(fmt::format("{}: error: {}", compiled.bundle->spec_file, refusal));
-    return kExitFindings;
-  }
   std::string write_error;
   Report report{provenance(), run_members(compiled, options, run, bar, write_error)};
   bar.clear();

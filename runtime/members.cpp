@@ -47,8 +47,7 @@ class Comparer {
 ReportedMember run_one(MemberSpec spec, const RunOptions& options) {
   if (!spec.bundle) return {{}, {}, refused_member(spec.refusal), {}};
   Bundle& bundle = *spec.bundle;
-  const std::string refusal = reference_refusal(bundle.model, options);
-  Member result = refusal.empty() ? run_member(bundle, options) : refused_member(refusal);
+  Member result = run_member(bundle, options);
   std::vector<Setting> settings = bundle.settings;
   return {std::move(bundle), std::move(settings), std::move(result), {}};
 }

@@ -1,6 +1,8 @@
 // See agreement.h. Tested by tests/compiler/engines_test.cpp.
 #include "compiler/components/agreement.h"
 
+#include "compiler/ir/truth.h"
+
 namespace twincraft {
 
 const Table<AgreementSpec>& agreement_table() {
@@ -31,20 +33,12 @@ Agreement lower(const AgreementSpec& spec) {
 }
 
 Kind<ReferenceKind> reference_kind() {
-  return one_of<ReferenceKind>(
-      {{"kepler", ReferenceKind::kKepler}, {"spin_up", ReferenceKind::kSpinUp}});
-}
-
-void check_reference(ReferenceKind reference, Span span, const EnvironmentSpec& environment,
-                     bool is_rigid, Diagnostics& diagnostics) {
-  if (reference == ReferenceKind::kKepler && !environment.gravity) {
-    diagnostics.error(Code::kReferenceInapplicable, span,
-                      "`kepler` describes an orbit, and deep space has none");
-  }
-  if (reference == ReferenceKind::kSpinUp && !is_rigid) {
-    diagnostics.error(Code::kReferenceInapplicable, span,
-                      "`spin_up` describes a rigid body, and this vehicle has moving parts");
-  }
+  std::vector<std::pair<std::string, ReferenceKind>> words;
+  for (const ReferenceKind kind :
+       {ReferenceKind::kKepler, ReferenceKind::kSpinUp, ReferenceKind::kTorqueFree,
+        ReferenceKind::kTsiolkovsky, ReferenceKind::kStored})
+    words.emplace_back(reference_name(kind), kind);
+  return one_of<ReferenceKind>(words);
 }
 
 }  // namespace twincraft

@@ -4,7 +4,8 @@
 
 #include <optional>
 
-#include "compiler/components/environment.h"
+#include "compiler/ir/model.h"
+#include "compiler/schema/table.h"
 
 namespace twincraft {
 
@@ -26,11 +27,5 @@ Agreement lower(const AgreementSpec& agreement);
 
 /// The words of `references`.
 Kind<ReferenceKind> reference_kind();
-
-/// Report a reference that cannot apply, as far as the spec's sections tell: Kepler's orbit needs
-/// gravity, the spin-up of a rigid body nothing that moves on it.
-/// @param is_rigid  the vehicle is the hub alone
-void check_reference(ReferenceKind reference, Span span, const EnvironmentSpec& environment,
-                     bool is_rigid, Diagnostics& diagnostics);
 
 }  // namespace twincraft

@@ -118,11 +118,11 @@ Quaterniond from_align(const std::vector<AlignSpec>& align, const PointState& po
   return Quaterniond(Matrix3d(inertial * body.transpose()));
 }
 
+Quaterniond from_list(const std::vector<double>& q) { return {q[0], q[1], q[2], q[3]}; }
+
 Quaterniond written(const AttitudeSpec& attitude, const PointState& point) {
-  if (attitude.quaternion) {
-    const std::vector<double>& q = *attitude.quaternion;
-    return Quaterniond(q[0], q[1], q[2], q[3]);
-  }
+  if (attitude.quaternion) return from_list(*attitude.quaternion);
+  if (attitude.quaternion_to_body) return from_list(*attitude.quaternion_to_body).conjugate();
   if (attitude.mrp) return from_mrp(*attitude.mrp);
   if (attitude.dcm_BN) {
     return Quaterniond(Matrix3d(nearest_rotation(*attitude.dcm_BN).transpose()));
@@ -131,12 +131,11 @@ Quaterniond written(const AttitudeSpec& attitude, const PointState& point) {
   return from_align(attitude.align, point);
 }
 
-void check_quaternion(const AttitudeSpec& attitude, Diagnostics& diagnostics) {
-  const std::vector<double>& q = *attitude.quaternion;
-  const double norm = Eigen::Vector4d(q[0], q[1], q[2], q[3]).norm();
+void check_quaternion(const std::vector<double>& q, Span span, Diagnostics& diagnostics) {
+  const double norm = from_list(q).norm();
   if (std::abs(norm - 1.0) <= kQuaternionTolerance) return;
   diagnostics
-      .error(Code::kNotUnitQuaternion, attitude.span_of("quaternion"),
+      .error(Code::kNotUnitQuaternion, span,
              fmt::format("the quaternion has norm {}, not 1", shortest(norm)))
       .with_hint("scalar first: [1, 0, 0, 0] is no rotation");
 }
@@ -199,6 +198,10 @@ const Table<AttitudeSpec>& attitude_table() {
       {
           optional("quaternion", &AttitudeSpec::quaternion, maybe(list_of(number(), 4, 4)),
                    "Scalar first; takes B components to N."),
+          optional("quaternion_to_body", &AttitudeSpec::quaternion_to_body,
+                   maybe(list_of(number(), 4, 4)),
+                   "Scalar first; takes N components to B: the conjugate of `quaternion`, and how "
+                   "NASA's check cases give an attitude."),
           optional("mrp", &AttitudeSpec::mrp, maybe(vector3("1")),
                    "Modified Rodrigues parameters sigma_BN."),
           optional("dcm_BN", &AttitudeSpec::dcm_BN, maybe(matrix3()),
@@ -208,12 +211,16 @@ const Table<AttitudeSpec>& attitude_table() {
           optional("align", &AttitudeSpec::align, list_of(object(align_table()), 2, 2),
                    "Two body axes and where they point: the first exactly, the second as near "
                    "as it can be."),
-      }}.exactly_one_of({"quaternion", "mrp", "dcm_BN", "euler", "align"});
+      }}.exactly_one_of({"quaternion", "quaternion_to_body", "mrp", "dcm_BN", "euler", "align"});
   return table;
 }
 
 void check(const AttitudeSpec& attitude, const PointState* point, Diagnostics& diagnostics) {
-  if (attitude.quaternion) check_quaternion(attitude, diagnostics);
+  for (const auto& [key, quaternion] :
+       {std::pair{"quaternion", &attitude.quaternion},
+        std::pair{"quaternion_to_body", &attitude.quaternion_to_body}}) {
+    if (*quaternion) check_quaternion(**quaternion, attitude.span_of(key), diagnostics);
+  }
   if (attitude.dcm_BN) check_rotation(attitude, diagnostics);
   if (!attitude.align.empty()) check_align(attitude, point, diagnostics);
 }

@@ -28,9 +28,10 @@ struct AlignSpec : Written {
 
 /// Exactly one is written.
 struct AttitudeSpec : Written {
-  std::optional<std::vector<double>> quaternion;  // scalar first, B to N
-  std::optional<Vector3d> mrp;                    // sigma_BN
-  std::optional<Matrix3d> dcm_BN;                 // N components to B
+  std::optional<std::vector<double>> quaternion;          // scalar first, B to N
+  std::optional<std::vector<double>> quaternion_to_body;  // scalar first, N to B
+  std::optional<Vector3d> mrp;                            // sigma_BN
+  std::optional<Matrix3d> dcm_BN;                         // N components to B
   std::optional<EulerSpec> euler;
   std::vector<AlignSpec> align;  // the first exact, the second as near as it can be
 };

@@ -8,6 +8,7 @@
 #include "compiler/components/physical.h"
 #include "compiler/components/spec.h"
 #include "compiler/ir/number.h"
+#include "compiler/ir/truth.h"
 
 namespace twincraft {
 namespace {
@@ -86,6 +87,17 @@ void warn_of_depth(const Spec& spec, const Model& model, Diagnostics& diagnostic
   }
 }
 
+/// At the word of every reference that is not this vehicle's motion.
+void check_references(const Spec& spec, const Model& model, Diagnostics& diagnostics) {
+  for (std::size_t i = 0; i < spec.references.size(); ++i) {
+    const ReferenceKind kind = spec.references[i];
+    const std::optional<std::string> reason = inapplicable(kind, model);
+    if (!reason) continue;
+    diagnostics.error(Code::kReferenceInapplicable, spec.node->find("references")->items[i].span,
+                      fmt::format("`{}` does not apply: {}", reference_name(kind), *reason));
+  }
+}
+
 }  // namespace
 
 std::optional<Model> lower(const Spec& spec, Diagnostics& diagnostics) {
@@ -102,6 +114,8 @@ std::optional<Model> lower(const Spec& spec, Diagnostics& diagnostics) {
   model.simulation = lower(spec.simulation, oscillators(spec));
   model.agreement = lower(spec.agreement);
   model.references = spec.references;
+  if (spec.stored && names_stored(spec)) model.stored = lower(*spec.stored, spec.environment);
+  check_references(spec, model, diagnostics);
   return model;
 }
 

@@ -34,12 +34,16 @@ void check_start(const InitialSpec& initial, Diagnostics& diagnostics) {
   }
 }
 
-void check_reference_to_turning(const Spec& spec, Diagnostics& diagnostics) {
-  const auto found = std::ranges::find(spec.references, ReferenceKind::kSpinUp);
-  if (found == spec.references.end()) return;
-  const auto index = static_cast<std::size_t>(found - spec.references.begin());
-  refuse(spec.node->find("references")->items[index].span,
-         "`spin_up` describes a turning body, and a point mass does not turn", diagnostics);
+/// A truth may be richer than the point mass that is held against it, but not about its attitude.
+void check_stored_states(const Spec& spec, Diagnostics& diagnostics) {
+  if (!spec.stored) return;
+  for (const StoredStateSpec& state : spec.stored->states) {
+    for (const char* key : {"attitude", "rate"}) {
+      if (!state.has(key)) continue;
+      refuse(state.span_of(key), fmt::format("a point mass has no {} to compare", key),
+             diagnostics);
+    }
+  }
 }
 
 }  // namespace
@@ -55,7 +59,7 @@ void check_point_mass(const Spec& spec, Diagnostics& diagnostics) {
            fmt::format("the torque of load `{}` turns a point mass", load.name), diagnostics);
   }
   check_start(spec.initial, diagnostics);
-  check_reference_to_turning(spec, diagnostics);
+  check_stored_states(spec, diagnostics);
 }
 
 }  // namespace twincraft

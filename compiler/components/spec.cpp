@@ -38,18 +38,6 @@ Names named_components(const Spec& spec, Diagnostics& diagnostics) {
   return names;
 }
 
-void check_references(const Spec& spec, Diagnostics& diagnostics) {
-  const bool is_rigid = spec.wheels.empty() && spec.panels.empty() &&
-                        std::ranges::all_of(spec.bodies, is_fixed) && spec.slosh.empty() &&
-                        std::ranges::none_of(spec.thrusters, [](const ThrusterSpec& thruster) {
-                          return thruster.tank.has_value();
-                        });
-  for (std::size_t i = 0; i < spec.references.size(); ++i) {
-    const Span span = spec.node->find("references")->items[i].span;
-    check_reference(spec.references[i], span, spec.environment, is_rigid, diagnostics);
-  }
-}
-
 /// What is drawn from the tanks, and what sloshes in them, is there.
 void check_tanks(const Spec& spec, Diagnostics& diagnostics) {
   for (const TankSpec& tank : spec.tanks) {
@@ -92,6 +80,10 @@ std::vector<Oscillator> oscillators(const Spec& spec) {
   return all;
 }
 
+bool names_stored(const Spec& spec) {
+  return std::ranges::find(spec.references, ReferenceKind::kStored) != spec.references.end();
+}
+
 const Table<Spec>& spec_table() {
   static const Table<Spec> table{
       "spec",
@@ -127,8 +119,13 @@ const Table<Spec>& spec_table() {
           optional("agreement", &Spec::agreement, object(agreement_table()),
                    "Tolerances of the verdict."),
           optional("references", &Spec::references, list_of(reference_kind()),
-                   "Analytic truths to compare each engine with: `kepler`, the two-body orbit; "
-                   "`spin_up`, a rigid body under a constant torque about a principal axis."),
+                   "Truths to compare each engine with: `kepler`, the two-body orbit; `spin_up`, a "
+                   "rigid body under a constant torque about a principal axis; `torque_free`, a "
+                   "rigid body that tumbles by itself; `tsiolkovsky`, the rocket equation; "
+                   "`stored`, the states of the section `stored`. One that does not apply to the "
+                   "vehicle is an error."),
+          optional("stored", &Spec::stored, maybe(object(stored_table())),
+                   "States computed elsewhere, for `references: [stored]`."),
           optional("study", &Spec::study, maybe(object(study_table())),
                    "Run many variants of this spec instead of one."),
       }};
@@ -160,7 +157,9 @@ void check(const Spec& spec, Diagnostics& diagnostics) {
   check(spec.initial, spec.environment, diagnostics);
   check(spec.simulation, oscillators(spec), diagnostics);
   check(spec.engines, spec.environment, diagnostics);
-  check_references(spec, diagnostics);
+  if (spec.stored)
+    check(*spec.stored, names_stored(spec), spec.environment, spec.simulation.duration,
+          diagnostics);
   check_point_mass(spec, diagnostics);
   if (spec.study) members_of(*spec.study, diagnostics);
 }

@@ -17,6 +17,7 @@
 #include "compiler/components/panel.h"
 #include "compiler/components/simulation.h"
 #include "compiler/components/slosh.h"
+#include "compiler/components/stored.h"
 #include "compiler/components/study.h"
 #include "compiler/components/tank.h"
 #include "compiler/components/thruster.h"
@@ -45,6 +46,7 @@ struct Spec : Written {
   EnginesSpec engines;
   AgreementSpec agreement;
   std::vector<ReferenceKind> references;
+  std::optional<StoredSpec> stored;
   std::optional<StudySpec> study;
 };
 
@@ -54,6 +56,9 @@ const Table<Spec>& spec_table();
 /// before reading: the keys of another version would all be faults. A missing `format` is left to
 /// the table.
 bool check_format(const Node& root, Diagnostics& diagnostics);
+
+/// Whether the references make use of the section `stored`.
+bool names_stored(const Spec& spec);
 
 /// Everything that a step rule can follow.
 std::vector<Oscillator> oscillators(const Spec& spec);

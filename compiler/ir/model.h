@@ -10,6 +10,7 @@
 #include "compiler/ir/assembly.h"
 #include "compiler/ir/body_tree.h"
 #include "compiler/ir/propellant.h"
+#include "compiler/ir/stored.h"
 
 namespace twincraft {
 
@@ -108,7 +109,7 @@ struct Agreement {
   std::optional<double> mass;      // [kg]
 };
 
-enum class ReferenceKind { kKepler, kSpinUp };
+enum class ReferenceKind { kKepler, kSpinUp, kTorqueFree, kTsiolkovsky, kStored };
 
 struct Model {
   std::string name;
@@ -124,6 +125,7 @@ struct Model {
   EngineControls engines;
   Agreement agreement;
   std::vector<ReferenceKind> references;
+  StoredTruth stored;  // states only when the references name it
   // Why the tree cannot be loaded by MuJoCo (a chain too deep); empty when it can.
   std::string mujoco_refusal;
 

@@ -3,12 +3,9 @@
 // anomaly.  Tested by tests/runtime/reference_test.cpp.
 #include "runtime/reference/kepler.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
-
-#include "compiler/ir/configuration.h"
 
 namespace twincraft {
 
@@ -56,45 +53,6 @@ KeplerOrbit::State KeplerOrbit::at(double time) const {
   const Real f_dot = -std::sqrt(mu_ * a_) / (r * radius_) * sine;
   const Real g_dot = 1.0L - a_ / r * versine;
   return {(f * r0_ + g * v0_).cast<double>(), (f_dot * r0_ + g_dot * v0_).cast<double>()};
-}
-
-namespace {
-
-/// Is any force schedule of `load` not zero at some time in [0, duration)?
-bool pushes(const Load& load, double duration) {
-  return std::any_of(load.force_L.begin(), load.force_L.end(), [duration](const Schedule& force) {
-    if (force.at(0.0) != 0.0) return true;
-    const std::vector<double> times = event_times({&force}, duration);
-    return std::any_of(times.begin(), times.end(),
-                       [&force](double time) { return force.at(time) != 0.0; });
-  });
-}
-
-bool is_elliptic(const Model& model) {
-  const InitialState& initial = model.initial;
-  const std::vector<LinkMotion> links =
-      configuration(model.assembly, initial.joint_position, initial.joint_rate);
-  const Vector3d c = system_properties(model.assembly, links).r_CL_L;
-  const Vector3d c_dot = center_of_mass_rate(model.assembly, links) + initial.omega_BN_B.cross(c);
-  const Vector3d r = initial.r_BN_N + initial.q_BN * c;
-  const Vector3d v = initial.v_BN_N + initial.q_BN * c_dot;
-  const Vector3d h = r.cross(v);
-  // A straight fall (h = 0) has energy below zero too, but reaches the centre.
-  return 0.5 * v.squaredNorm() < model.gravity.mu / r.norm() && h.norm() > 0.0;
-}
-
-}  // namespace
-
-std::optional<std::string> kepler_inapplicable(const Model& model, GravityLaw law) {
-  if (law == GravityLaw::kNone) return "there is no gravity";
-  for (const Load& load : model.loads) {
-    if (pushes(load, model.simulation.duration)) return "`" + load.name + "` applies a force";
-  }
-  if (law != GravityLaw::kSystemCom && !all_mass_at_one_point(model))
-    return "gravity acts at several points, so the system centre of mass is not on a Kepler orbit; "
-           "it is under `application: system_com`";
-  if (!is_elliptic(model)) return "the initial state is not on an ellipse";
-  return std::nullopt;
 }
 
 std::vector<Deviation> kepler_deviations(const Model& model, std::span<const Observation> samples) {

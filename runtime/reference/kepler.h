@@ -36,8 +36,6 @@ class KeplerOrbit {
   Real e_sin_E_;  // e sin E0
 };
 
-std::optional<std::string> kepler_inapplicable(const Model& model, GravityLaw law);
-
 /// `position_m` and `velocity_m_s` of the system centre of mass.
 std::vector<Deviation> kepler_deviations(const Model& model, std::span<const Observation> samples);
 

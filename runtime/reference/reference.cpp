@@ -1,46 +1,20 @@
 // See reference.h. Tested by tests/runtime/reference_test.cpp.
 #include "runtime/reference/reference.h"
 
-#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "runtime/reference/kepler.h"
 #include "runtime/reference/spin_up.h"
+#include "runtime/reference/stored.h"
+#include "runtime/reference/torque_free.h"
+#include "runtime/reference/tsiolkovsky.h"
 
 namespace twincraft {
-namespace {
 
-/// Where in the hub every element with mass is, in both halves; false when one can move. A wheel on
-/// the hub can not: its centre of mass is on its axis.
-bool collect_fixed(const Model& model, std::vector<Vector3d>& positions) {
-  const auto has_mass = [](const MassElement& element) { return element.mass > 0.0; };
-  for (std::size_t link = 0; link < model.assembly.links.size(); ++link) {
-    for (const MassElement& element : model.assembly.links[link].elements) {
-      if (!has_mass(element)) continue;
-      if (link > 0) return false;
-      positions.push_back(element.r_EL_L);
-    }
-  }
-  for (const TreeBody& body : model.tree.bodies) {
-    const bool is_hub = body.parent < 0;
-    const bool is_wheel_on_hub = body.parent == 0 && body.link < 0;
-    for (const MassElement& element : body.elements) {
-      if (!has_mass(element)) continue;
-      if (!is_hub && !is_wheel_on_hub) return false;
-      const Vector3d turned = body.quat * element.r_EL_L;
-      positions.push_back(is_hub ? element.r_EL_L : body.pos + turned);
-    }
-  }
-  return true;
-}
-
-}  // namespace
-
-bool all_mass_at_one_point(const Model& model) {
-  std::vector<Vector3d> positions;
-  if (!collect_fixed(model, positions)) return false;
-  return std::all_of(positions.begin(), positions.end(),
-                     [&](const Vector3d& r) { return r == positions.front(); });
+std::optional<bool> Deviation::pass() const {
+  if (!tolerance) return std::nullopt;
+  return max <= *tolerance;  // false for NaN
 }
 
 void widen(Deviation& deviation, double found, double time) {
@@ -49,19 +23,27 @@ void widen(Deviation& deviation, double found, double time) {
   deviation.at = time;
 }
 
-std::string_view reference_name(ReferenceKind kind) {
-  return kind == ReferenceKind::kKepler ? "kepler" : "spin_up";
-}
-
-std::optional<std::string> inapplicable(ReferenceKind kind, const Model& model, GravityLaw law) {
-  return kind == ReferenceKind::kKepler ? kepler_inapplicable(model, law)
-                                        : spin_up_inapplicable(model, law);
+double angle_deg(const Quaterniond& a, const Quaterniond& b) {
+  const Quaterniond off = a.conjugate() * b;
+  const double angle = 2.0 * std::atan2(off.vec().norm(), std::abs(off.w()));
+  return angle * 180.0 / std::numbers::pi;
 }
 
 std::vector<Deviation> deviations(ReferenceKind kind, const Model& model,
                                   std::span<const Observation> samples) {
-  return kind == ReferenceKind::kKepler ? kepler_deviations(model, samples)
-                                        : spin_up_deviations(model, samples);
+  switch (kind) {
+    case ReferenceKind::kKepler:
+      return kepler_deviations(model, samples);
+    case ReferenceKind::kSpinUp:
+      return spin_up_deviations(model, samples);
+    case ReferenceKind::kTorqueFree:
+      return torque_free_deviations(model, samples);
+    case ReferenceKind::kTsiolkovsky:
+      return tsiolkovsky_deviations(model, samples);
+    case ReferenceKind::kStored:
+      break;
+  }
+  return stored_deviations(model.stored, samples);
 }
 
 }  // namespace twincraft

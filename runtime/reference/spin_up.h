@@ -18,8 +18,6 @@ struct SpinUp {
   Quaterniond turn(double time) const;
 };
 
-std::optional<std::string> spin_up_inapplicable(const Model& model, GravityLaw law);
-
 /// `attitude_deg`, the principal angle to the true attitude, and `rate_rad_s`.
 std::vector<Deviation> spin_up_deviations(const Model& model, std::span<const Observation> samples);
 

@@ -124,12 +124,18 @@ Json against_json(const Baseline& against) {
   return json;
 }
 
+Json deviation_json(const Deviation& deviation) {
+  Json json{{"max", deviation.max}, {"at_s", deviation.at}};
+  if (deviation.tolerance) json["tolerance"] = *deviation.tolerance;
+  if (deviation.tolerance) json["pass"] = *deviation.pass();
+  return json;
+}
+
 Json references_json(const std::vector<ReferenceRun>& runs) {
   Json references = Json::object();
   for (const ReferenceRun& run : runs)
     for (const Deviation& deviation : run.deviations)
-      references[run.name][run.engine][deviation.metric] = {{"max", deviation.max},
-                                                            {"at_s", deviation.at}};
+      references[run.name][run.engine][deviation.metric] = deviation_json(deviation);
   return references;
 }
 

@@ -67,20 +67,31 @@ std::string metric_cell(const ReportedMember& member, const Metric* metric) {
   return quantity(metric->maximum, words_of(metric->key, member.bundle.model).unit);
 }
 
-/// How much of its tolerance the metric uses that uses the most.
-std::string worst_cell(const ReportedMember& member) {
-  if (!member.result.comparison) return "-";
-  const Metric* worst = nullptr;
-  double largest = -1.0;
-  for (const Metric& metric : member.result.comparison->metrics) {
-    if (!metric.tolerance) continue;
-    const double part = metric.maximum == 0.0 ? 0.0 : metric.maximum / *metric.tolerance;
-    if (std::isnan(largest) || part <= largest) continue;
-    largest = part;
-    worst = &metric;
+/// What uses most of its tolerance, and how much of it: a metric of the agreement, or an engine's
+/// deviation from a reference.
+struct WorstPart {
+  std::string label;
+  double part = -1.0;
+
+  void see(const std::string& what, double found, std::optional<double> tolerance) {
+    if (!tolerance) return;
+    const double candidate = found == 0.0 ? 0.0 : found / *tolerance;
+    if (std::isnan(part) || candidate <= part) return;
+    part = candidate;
+    label = what;
   }
-  if (worst == nullptr) return "-";
-  return fmt::format("{} {:.2g}", words_of(worst->key, member.bundle.model).label, largest);
+};
+
+std::string worst_cell(const ReportedMember& member) {
+  const Model& model = member.bundle.model;
+  WorstPart worst;
+  if (member.result.comparison)
+    for (const Metric& metric : member.result.comparison->metrics)
+      worst.see(words_of(metric.key, model).label, metric.maximum, metric.tolerance);
+  for (const ReferenceRun& run : member.result.references)
+    for (const Deviation& deviation : run.deviations)
+      worst.see(run.name, deviation.max, deviation.tolerance);
+  return worst.label.empty() ? "-" : fmt::format("{} {:.2g}", worst.label, worst.part);
 }
 
 std::string step_cell(const Member& member, std::string_view engine) {
@@ -283,6 +294,10 @@ std::string verdict_line(const Report& report, bool colour) {
     return colour ? fmt::format(fmt::fg(shade), "{}", text) : std::string(text);
   };
   if (report.study->is_work_precision) return "not judged; a work-precision study has no verdict";
+  for (const ReportedMember& member : report.members)
+    if (const std::string truth = member.result.exceeded_reference(); !truth.empty())
+      return paint(fmt::format("an engine is further from `{}` than allowed", truth),
+                   fmt::color::red);
   switch (report.verdict()) {
     case Verdict::kAgree:
       return paint("the engines agree in every member", fmt::color::green);

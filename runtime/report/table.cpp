@@ -5,16 +5,19 @@
 #include <fmt/color.h>
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "runtime/report/words.h"
 
 namespace twincraft {
 namespace {
 
-constexpr std::string_view kRow = "{:<20} {:<14} {:<11} {:<16} {}";
+constexpr std::string_view kRow = "{:<{}} {:<14} {:<11} {:<16} {}";
+constexpr std::size_t kLabelWidth = 20;
 
 std::string row(std::string_view label, std::string_view a, std::string_view b, std::string_view c,
-                std::string_view d = "") {
-  std::string line = fmt::format(fmt::runtime(kRow), label, a, b, c, d);
+                std::string_view d = "", std::size_t label_width = kLabelWidth) {
+  std::string line = fmt::format(fmt::runtime(kRow), label, label_width, a, b, c, d);
   line.erase(line.find_last_not_of(' ') + 1);
   return line + "\n";
 }
@@ -25,8 +28,7 @@ std::string paint(std::string_view text, fmt::color color, bool colour) {
   return colour ? fmt::format(fmt::fg(color), "{}", text) : std::string(text);
 }
 
-std::string result_words(const Metric& metric, bool colour) {
-  const std::optional<bool> pass = metric.pass();
+std::string result_words(std::optional<bool> pass, bool colour) {
   if (!pass) return "";
   return *pass ? paint("ok", fmt::color::green, colour)
                : paint("EXCEEDED", fmt::color::red, colour);
@@ -46,23 +48,42 @@ std::string agreement_block(const ReportedMember& member, bool colour) {
     const std::string tolerance =
         metric.tolerance ? fmt::format("{:g} {}", *metric.tolerance, unit) : "-";
     text += row(indented(label), quantity(metric.maximum, unit), fmt::format("{:.2f} s", metric.at),
-                tolerance, result_words(metric, colour));
+                tolerance, result_words(metric.pass(), colour));
   }
   return text;
 }
 
 std::string engine_label(std::string_view engine) { return engine == "bsm" ? "BSM" : "MuJoCo"; }
 
-std::string reference_block(const ReportedMember& member) {
+/// Empty for a reference that judges nothing.
+std::string tolerance_words(const Deviation& deviation, std::string_view unit, bool colour) {
+  if (!deviation.tolerance) return {};
+  return fmt::format("{:<14} {}", fmt::format("{:g} {}", *deviation.tolerance, unit),
+                     result_words(deviation.pass(), colour));
+}
+
+std::string reference_label(const ReferenceRun& run, const Deviation& deviation,
+                            const Model& model) {
+  const std::string label = words_of(deviation.metric, model).label;
+  // A reference speaks of its own point where a metric speaks of the hub.
+  const std::string what = label.starts_with("hub ") ? label.substr(4) : label;
+  return indented(run.name + " " + what);
+}
+
+std::string reference_block(const ReportedMember& member, bool colour) {
   if (member.result.references.empty()) return {};
-  std::string text = row("reference", "maximum", "at", "engine");
+  const Model& model = member.bundle.model;
+  std::size_t width = kLabelWidth;
+  for (const ReferenceRun& run : member.result.references)
+    for (const Deviation& deviation : run.deviations)
+      width = std::max(width, reference_label(run, deviation, model).size());
+  std::string text = row("reference", "maximum", "at", "engine", "", width);
   for (const ReferenceRun& run : member.result.references)
     for (const Deviation& deviation : run.deviations) {
-      const auto [label, unit] = words_of(deviation.metric, member.bundle.model);
-      // A reference speaks of the system's centre of mass where a metric speaks of the hub.
-      const std::string what = label.starts_with("hub ") ? label.substr(4) : label;
-      text += row(indented(run.name + " " + what), quantity(deviation.max, unit),
-                  fmt::format("{:.2f} s", deviation.at), engine_label(run.engine));
+      const std::string unit = words_of(deviation.metric, model).unit;
+      text += row(reference_label(run, deviation, model), quantity(deviation.max, unit),
+                  fmt::format("{:.2f} s", deviation.at), engine_label(run.engine),
+                  tolerance_words(deviation, unit, colour), width);
     }
   return text;
 }
@@ -105,6 +126,9 @@ std::string why_not_judged(const Member& result) {
 }
 
 std::string verdict_line(const Member& result, bool colour) {
+  if (const std::string truth = result.exceeded_reference(); !truth.empty())
+    return paint(fmt::format("an engine is further from `{}` than allowed", truth), fmt::color::red,
+                 colour);
   switch (result.verdict()) {
     case Verdict::kAgree:
       return paint("the engines agree", fmt::color::green, colour);
@@ -123,7 +147,7 @@ std::string report_table(const ReportedMember& member, bool colour) {
   std::string text =
       fmt::format("{}   {}   {}\n\n", model.name, vehicle_words(model), plan_words(model));
   text += agreement_block(member, colour);
-  text += reference_block(member);
+  text += reference_block(member, colour);
   text += conservation_block(member.result);
   text += cost_block(member.result);
   return text + "\n" + verdict_line(member.result, colour) + "\n";

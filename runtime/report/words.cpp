@@ -32,6 +32,7 @@ constexpr std::array kWords{
     Entry{"slosh_m", "slosh", "m"},
     Entry{"pendulum_deg", "pendulum", "deg"},
     Entry{"mass_kg", "mass", "kg"},
+    Entry{"delta_v_relative", "delta-v, relative", ""},
 };
 
 bool has(const Model& model, Kind kind) {

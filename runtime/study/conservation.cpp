@@ -1,6 +1,7 @@
 // Balances and what they are relative to. Tested by tests/runtime/conservation_test.cpp.
 #include "runtime/study/conservation.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "runtime/study/agreement.h"
@@ -10,13 +11,18 @@ namespace {
 
 // Below this share of the kinetic energy a total is a difference of large terms, not a scale.
 constexpr double kCancelled = 1.0e-6;
+// Below this share of the angular momentum on an arm of 1 m a momentum is that of token masses, and
+// rounding.
+constexpr double kTokens = 1.0e-9;
+// Below this share of impulse or momentum on an arm of 1 m an angular momentum is rounding.
+constexpr double kRounding = 1.0e-12;
 
 double relative(double imbalance, double scale) {
   return imbalance == 0.0 ? 0.0 : imbalance / scale;
 }
 
 struct Scales {
-  Peak energy, kinetic, momentum, H;
+  Peak energy, kinetic, momentum, H, impulse;
 
   explicit Scales(const Trajectory& trajectory) {
     for (const Observation& sample : trajectory.samples) {
@@ -25,10 +31,23 @@ struct Scales {
       momentum.see(sample.momentum_scale, sample.time);
       H.see(sample.H_scale, sample.time);
     }
+    for (const Books& books : trajectory.books) impulse.see(books.impulse_N.norm(), 0.0);
   }
 
   double energy_scale() const {
     return energy.maximum < kCancelled * kinetic.maximum ? kinetic.maximum : energy.maximum;
+  }
+
+  /// In a vehicle at rest with wheels that spin, forces cancel and nothing moves but token masses.
+  double momentum_scale() const {
+    return momentum.maximum > kTokens * H.maximum ? momentum.maximum : H.maximum;
+  }
+
+  /// A vehicle that never turns has the rounding of forces and momenta on arms of about a metre for
+  /// an angular momentum.
+  double angular_scale() const {
+    const double on_an_arm = std::max(impulse.maximum, momentum.maximum);
+    return H.maximum > kRounding * on_an_arm ? H.maximum : on_an_arm;
   }
 };
 
@@ -37,8 +56,8 @@ struct Scales {
 ConservationCurve::ConservationCurve(const Trajectory& trajectory) : trajectory_(&trajectory) {
   const Scales scales(trajectory);
   energy_scale_ = scales.energy_scale();
-  momentum_scale_ = scales.momentum.maximum;
-  H_scale_ = scales.H.maximum;
+  momentum_scale_ = scales.momentum_scale();
+  H_scale_ = scales.angular_scale();
 }
 
 Conservation ConservationCurve::at(std::size_t sample) const {

@@ -10,9 +10,11 @@ namespace twincraft {
 
 /// Largest imbalances over the samples of one trajectory.
 struct Conservation {
-  double energy = 0.0;            // |E - E0 - work| / max|E|; max kinetic when E is near zero
-  double momentum = 0.0;          // |p - p0 - impulse| / max momentum_scale
-  double angular_momentum = 0.0;  // |H - H0 - angular impulse| / max H_scale, about C
+  double energy = 0.0;    // |E - E0 - work| / max|E|; max kinetic when E is near zero
+  double momentum = 0.0;  // |p - p0 - impulse| / max momentum_scale
+  // |H - H0 - angular impulse| / max H_scale, about C; of a vehicle that never turns impulse or
+  // momentum times 1 m stands for the scale
+  double angular_momentum = 0.0;
 };
 
 /// The same balances as they go; valid as long as the trajectory is.

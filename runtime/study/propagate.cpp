@@ -8,49 +8,75 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "compiler/ir/number.h"
 #include "runtime/integrate/landings.h"
+#include "runtime/reference/stored.h"
 
 namespace twincraft {
 namespace {
 
+/// What is integrated. The trial step of an adaptive method may be far too long and end in a state
+/// that no engine can evaluate: that is no failure, but a step to be rejected, as for any other
+/// non-finite rate.
 class EngineOde : public Ode {
  public:
-  explicit EngineOde(Engine& engine) : engine_(engine) {}
+  EngineOde(Engine& engine, bool adaptive) : engine_(engine), adaptive_(adaptive) {}
   int size() const override { return engine_.layout().size(); }
-  void derivative(double time, std::span<const double> state, std::span<double> rate) override {
-    engine_.derivative(time, state, rate);
+  void derivative(double time, std::span<const double> state, std::span<double> rate) final {
+    if (!adaptive_) return evaluate(time, state, rate);
+    try {
+      evaluate(time, state, rate);
+    } catch (const NumericalFailure& failure) {
+      std::ranges::fill(rate, std::numeric_limits<double>::quiet_NaN());
+      excuse_ = failure.what();
+    }
   }
   void finish_step(std::span<double> state) override { engine_.finish_step(state); }
 
+  /// The engine's own words, for when no step is short enough; empty before it failed.
+  const std::string& excuse() const { return excuse_; }
+  void forgive() { excuse_.clear(); }
+
+ protected:
+  virtual void evaluate(double time, std::span<const double> state, std::span<double> rate) {
+    engine_.derivative(time, state, rate);
+  }
+  Engine& engine() { return engine_; }
+  const Engine& engine() const { return engine_; }
+
  private:
   Engine& engine_;
+  bool adaptive_;
+  std::string excuse_;
 };
 
 // The books are quadratures appended behind the state: nothing reads them back.
 constexpr std::size_t kBooks = 7;
 
-class BookkeepingOde : public Ode {
+class BookkeepingOde : public EngineOde {
  public:
-  explicit BookkeepingOde(Engine& engine)
-      : engine_(engine), size_(static_cast<std::size_t>(engine.layout().size())) {}
+  BookkeepingOde(Engine& engine, bool adaptive)
+      : EngineOde(engine, adaptive), size_(static_cast<std::size_t>(engine.layout().size())) {}
   int size() const override { return static_cast<int>(size_ + kBooks); }
-  void derivative(double time, std::span<const double> state, std::span<double> rate) override {
-    engine_.derivative(time, state.first(size_), rate.first(size_));
-    const ExternalRates external = engine_.external_rates(time, state.first(size_));
+  void finish_step(std::span<double> state) override { engine().finish_step(state.first(size_)); }
+
+ private:
+  void evaluate(double time, std::span<const double> state, std::span<double> rate) override {
+    engine().derivative(time, state.first(size_), rate.first(size_));
+    const ExternalRates external = engine().external_rates(time, state.first(size_));
     const std::span<double> books = rate.last(kBooks);
     books[0] = external.power;
     Vector3d::Map(&books[1]) = external.force_N;
     Vector3d::Map(&books[4]) = external.torque_PntC_N;
   }
-  void finish_step(std::span<double> state) override { engine_.finish_step(state.first(size_)); }
 
- private:
-  Engine& engine_;
   std::size_t size_;
 };
+
+bool is_adaptive(const Model& model) { return tableau_of(model.simulation.method).adaptive; }
 
 Books books_of(std::span<const double> state) {
   const std::span<const double> books = state.last(kBooks);
@@ -89,7 +115,7 @@ std::vector<std::string> state_names(const Model& model, const StateLayout& layo
   return names;
 }
 
-std::vector<double> input_events(const Model& model) {
+std::vector<double> events_of(const Model& model) {
   std::vector<const Schedule*> schedules;
   for (const Link& link : model.assembly.links) schedules.push_back(&link.joint.effort);
   for (const Rotor& rotor : model.assembly.rotors) schedules.push_back(&rotor.torque);
@@ -97,18 +123,23 @@ std::vector<double> input_events(const Model& model) {
     for (const Schedule& force : load.force_L) schedules.push_back(&force);
     for (const Schedule& torque : load.torque_L) schedules.push_back(&torque);
   }
+  // A run has to meet the states it is held against.
+  Schedule stored;
+  for (const StoredState& state : model.stored.states) stored.entries.push_back({state.time, 0.0});
+  schedules.push_back(&stored);
   return event_times(schedules, model.simulation.duration);
 }
 
 /// An engine at t = 0 and its way from landing to landing.
 class Run {
  public:
-  Run(Engine& engine, Ode& ode, const Model& model)
+  Run(Engine& engine, EngineOde& ode, const Model& model)
       : engine_(engine),
+        ode_(ode),
         stepper_(tableau_of(model.simulation.method), ode),
         names_(state_names(model, engine.layout())),
         control_(engine.layout(), model.simulation.tolerance, names_),
-        landings_(model.simulation.step, model.simulation.duration, input_events(model)) {
+        landings_(model.simulation.step, model.simulation.duration, events_of(model)) {
     engine.hold_inputs(0.0);
     const Eigen::VectorXd initial = engine.initial_state();
     std::copy(initial.begin(), initial.end(), stepper_.state().begin());
@@ -125,7 +156,7 @@ class Run {
   void advance(const std::atomic<bool>* stop = nullptr) {
     const Landing landing = landings_.next();
     if (stepper_.tableau().adaptive) {
-      time_ = control_.advance(stepper_, time_, landing.time, counts_, stop);
+      advance_adaptively(landing.time, stop);
     } else {
       stepper_.step(time_, landing.time - time_);
       counts_.evaluations += stepper_.tableau().stages;
@@ -137,6 +168,16 @@ class Run {
   }
 
  private:
+  void advance_adaptively(double to, const std::atomic<bool>* stop) {
+    ode_.forgive();
+    try {
+      time_ = control_.advance(stepper_, time_, to, counts_, stop);
+    } catch (const NumericalFailure&) {
+      if (ode_.excuse().empty()) throw;
+      throw NumericalFailure(ode_.excuse() + ", however short the step");
+    }
+  }
+
   [[noreturn]] void fail() const {
     const auto entry = static_cast<std::size_t>(stepper_.first_non_finite());
     throw NumericalFailure(fmt::format("`{}` is not finite in the step from t = {} s",
@@ -144,6 +185,7 @@ class Run {
   }
 
   Engine& engine_;
+  EngineOde& ode_;
   RungeKutta stepper_;
   std::vector<std::string> names_;
   StepControl control_;
@@ -200,7 +242,7 @@ void record_run(Engine& engine, Run& run, const Model& model, const PropagateOpt
   while (!run.done() && !stopped()) {
     run.advance(options.stop);
     trajectory.t_end = run.time();
-    if (recorder.is_due(run.time())) record();
+    if (recorder.is_due(run.time()) || is_stored_time(model.stored, run.time())) record();
     progress.at(run.time());
   }
   if (trajectory.samples.back().time != run.time()) record();
@@ -210,7 +252,7 @@ void record_run(Engine& engine, Run& run, const Model& model, const PropagateOpt
 }  // namespace
 
 Trajectory propagate(Engine& engine, const Model& model, const PropagateOptions& options) {
-  BookkeepingOde ode(engine);
+  BookkeepingOde ode(engine, is_adaptive(model));
   Run run(engine, ode, model);
   Trajectory trajectory;
   try {
@@ -224,7 +266,7 @@ Trajectory propagate(Engine& engine, const Model& model, const PropagateOptions&
 }
 
 StepCounts propagate_bare(Engine& engine, const Model& model) {
-  EngineOde ode(engine);
+  EngineOde ode(engine, is_adaptive(model));
   Run run(engine, ode, model);
   while (!run.done()) run.advance();
   return run.counts();

@@ -107,19 +107,16 @@ bool Member::failed() const {
                      [](const EngineRun& engine) { return engine.status == Status::kFailed; });
 }
 
-std::string reference_refusal(const Model& model, const RunOptions& options) {
-  const auto refusal = [&model](ReferenceKind kind, GravityLaw law) -> std::string {
-    const std::optional<std::string> reason = inapplicable(kind, model, law);
-    return reason ? fmt::format("reference `{}` does not apply: {}", reference_name(kind), *reason)
-                  : "";
-  };
-  for (ReferenceKind kind : model.references) {
-    const std::string of_bsm = options.bsm ? refusal(kind, model.gravity.bsm) : "";
-    if (!of_bsm.empty()) return of_bsm;
-    const std::string of_mujoco = options.mujoco ? refusal(kind, model.gravity.mujoco) : "";
-    if (!of_mujoco.empty()) return of_mujoco;
-  }
+std::string Member::exceeded_reference() const {
+  for (const ReferenceRun& run : references)
+    for (const Deviation& deviation : run.deviations)
+      if (deviation.pass() == false) return run.name;
   return {};
+}
+
+Verdict Member::verdict() const {
+  if (!exceeded_reference().empty()) return Verdict::kDisagree;
+  return comparison ? comparison->verdict : Verdict::kNotJudged;
 }
 
 Member refused_member(const std::string& reason) {

@@ -36,7 +36,7 @@ struct EngineRun {
   Conservation conservation;
 };
 
-/// One engine against one truth; maxima, no tolerances.
+/// One engine against one truth.
 struct ReferenceRun {
   std::string name;    // "kepler"
   std::string engine;  // "bsm"
@@ -51,17 +51,17 @@ struct Member {
   bool complete = false;         // everything asked for was computed to its end
   bool refused = false;          // nothing was run: the engines say why
 
-  Verdict verdict() const { return comparison ? comparison->verdict : Verdict::kNotJudged; }
+  /// Of the comparison, unless a reference's own tolerance was exceeded: that is kDisagree.
+  Verdict verdict() const;
+  /// The first reference whose tolerance an engine exceeded; empty when none was.
+  std::string exceeded_reference() const;
   bool failed() const;  // an engine failed numerically
 };
-
-/// Why the vehicle can not be held against a reference that the spec names; empty when it can.
-std::string reference_refusal(const Model& model, const RunOptions& options);
 
 /// A member that cannot be run, for a reason other than numbers: both engines skip it.
 Member refused_member(const std::string& reason);
 
-/// Numerical failures are part of the result. @pre reference_refusal() has no objection
+/// Numerical failures are part of the result.
 Member run_member(const Bundle& bundle, const RunOptions& options);
 
 }  // namespace twincraft

@@ -81,14 +81,28 @@ TEST(Agreement, JudgesOnlyWhatHasATolerance) {
 
 TEST(References, AreRefusedWhereTheyCannotApply) {
   const Trial kepler(brick_with("references: [kepler]\n"));
-  EXPECT_THAT(kepler.faults(), ElementsAre(HasSubstr("8:14 SC3501 `kepler` describes an orbit")));
+  EXPECT_THAT(kepler.faults(),
+              ElementsAre(HasSubstr("8:14 SC3501 `kepler` does not apply: there is no gravity")));
   const Trial spin_up(brick_with(
       "references: [spin_up]\n"
       "wheels: [{name: rw, axis: [0, 0, 1], spin_inertia: 0.08, transverse_inertia: 0.04}]\n"));
   EXPECT_THAT(spin_up.codes(), ElementsAre(Code::kReferenceInapplicable));
+  const Trial second(brick_with("references: [torque_free, tsiolkovsky]\n"));
+  EXPECT_THAT(second.faults(), ElementsAre(HasSubstr("8:27 SC3501 `tsiolkovsky` does not apply: no "
+                                                     "tank drains")));
   const Trial rigid(brick_with("references: [spin_up]\n"));
   ASSERT_TRUE(rigid.model);
   EXPECT_THAT(rigid.model->references, ElementsAre(ReferenceKind::kSpinUp));
+}
+
+TEST(References, MustApplyUnderTheGravityLawOfEitherEngine) {
+  const std::string orbit =
+      "environment: {gravity: {mu: 3.986e14, application: system_com}}\nreferences: [spin_up]\n"
+      "initial: {position: [7000 km, 0, 0]}\n";
+  EXPECT_THAT(Trial(brick_with(orbit)).faults(), IsEmpty());
+  const Trial apart(brick_with(orbit + "engines: {mujoco: {gravity: body_gradient}}\n"));
+  EXPECT_THAT(apart.faults(), ElementsAre(HasSubstr("9:14 SC3501 `spin_up` does not apply: gravity "
+                                                    "turns the vehicle")));
 }
 
 }  // namespace

@@ -48,8 +48,16 @@ TEST(PointMass, CarriesNothing) {
 }
 
 TEST(PointMass, IsNoSpinUp) {
-  EXPECT_THAT(Trial(point_with("references: [spin_up]\n")).faults(),
-              ElementsAre(HasSubstr("5:14 SC3405")));
+  EXPECT_THAT(
+      Trial(point_with("references: [spin_up]\n")).faults(),
+      ElementsAre(HasSubstr("5:14 SC3501 `spin_up` does not apply: a point mass does not")));
+}
+
+TEST(PointMass, IsHeldAgainstStoredPositionsOnly) {
+  const std::string stored = "stored: {source: me, states: [{time: 1, ";
+  EXPECT_THAT(Trial(point_with(stored + "position: [0, 0, 0]}]}\n")).faults(), IsEmpty());
+  EXPECT_THAT(Trial(point_with(stored + "rate: [0, 0, 0]}]}\n")).faults(),
+              ElementsAre(HasSubstr("SC3405 a point mass has no rate to compare")));
 }
 
 }  // namespace

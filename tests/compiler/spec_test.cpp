@@ -43,10 +43,10 @@ TEST(Spec, ReportsTheFaultsOfAllComponentsTogether) {
   const Trial trial(brick_with(R"(wheels:
   - {name: a, axis: [1, 0, 0], spin_inertia: 1, transverse_inertia: 0.04}
   - {name: b, axis: [1, 0, 0], spin_inertia: 1, transverse_inertia: 0.5, mount: x}
-references: [kepler]
+initial: {attitude: {quaternion: [1, 1, 0, 0]}}
 )"));
   EXPECT_THAT(trial.codes(), ElementsAre(Code::kInertiaTriangle, Code::kUnknownComponent,
-                                         Code::kReferenceInapplicable));
+                                         Code::kNotUnitQuaternion));
   EXPECT_FALSE(trial.model);
 }
 

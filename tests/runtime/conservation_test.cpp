@@ -57,6 +57,30 @@ TEST_F(Balance, GivesMomentumItsImpulse) {
   EXPECT_EQ(conservation_of(trajectory).momentum, 0.0);
 }
 
+TEST_F(Balance, OfAVehicleAtRestWithASpinningWheelIsRelativeToItsAngularMomentum) {
+  for (std::size_t i : {0u, 1u, 2u}) sample(i).H_scale = 25.0;
+  sample(2).momentum = {5.0e-18, 0.0, 0.0};
+  sample(2).momentum_scale = 1.0e-10;  // a token mass on a hub that turns a little
+  EXPECT_NEAR(conservation_of(trajectory).momentum, 2.0e-19, 1.0e-30);
+  sample(2).momentum_scale = 1.0e-6;
+  EXPECT_NEAR(conservation_of(trajectory).momentum, 5.0e-12, 1.0e-20);
+}
+
+TEST_F(Balance, OfAVehicleThatDoesNotTurnIsRelativeToItsImpulseOnAnArm) {
+  // Rounding of torques is all there is, beside forces that are far larger.
+  books(2).impulse_N = {0.0, 0.0, 20.0};
+  sample(2).momentum = books(2).impulse_N;
+  sample(2).momentum_scale = 20.0;
+  books(2).angular_impulse_N = {1.0e-15, 0.0, 0.0};
+  EXPECT_NEAR(conservation_of(trajectory).angular_momentum, 5.0e-17, 1.0e-30);
+  sample(2).H_scale = 1.0e-16;  // rounding too
+  EXPECT_NEAR(conservation_of(trajectory).angular_momentum, 5.0e-17, 1.0e-30);
+  books(2).impulse_N.setZero();  // a mass that slides through the centre
+  EXPECT_NEAR(conservation_of(trajectory).angular_momentum, 5.0e-17, 1.0e-30);
+  sample(2).H_scale = 1.0e-6;  // a slow turn, and a scale
+  EXPECT_NEAR(conservation_of(trajectory).angular_momentum, 1.0e-9, 1.0e-20);
+}
+
 TEST_F(Balance, OfOpposedWheelsIsRelativeToWhatEachCarries) {
   for (std::size_t i : {0u, 1u, 2u}) sample(i).H_scale = 100.0;  // +50 and -50: H is zero
   sample(1).H_PntC_N.z() = 1.0e-13;

@@ -314,6 +314,35 @@ TEST(Propagate, StopsInsideALongAdaptiveInterval) {
   EXPECT_EQ(trajectory.samples.back().time, trajectory.t_end);
 }
 
+TEST(Propagate, RejectsATrialStepThatTheEngineCannotEvaluate) {
+  Model model = toy_model();
+  model.simulation.method = Method::kRkf78;
+  ToyEngine engine(model);
+  const Trajectory smooth = propagate(engine, model);
+  int evaluations = 0;
+  engine.mischief = [&](double, auto) {
+    if (++evaluations == 5) throw NumericalFailure("the mass matrix is singular");
+  };
+  const Trajectory trajectory = propagate(engine, model);
+  EXPECT_EQ(trajectory.status, Trajectory::Status::kComplete) << trajectory.failure;
+  EXPECT_EQ(trajectory.counts.rejected, smooth.counts.rejected + 1);
+}
+
+TEST(Propagate, FailsInTheEnginesOwnWordsWhenNoStepIsShortEnough) {
+  Model model = toy_model();
+  ToyEngine engine(model);
+  engine.mischief = [](double time, auto) {
+    if (time > 0.35) throw NumericalFailure("the mass matrix is singular");
+  };
+  model.simulation.method = Method::kRkf45;
+  const Trajectory adaptive = propagate(engine, model);
+  EXPECT_EQ(adaptive.status, Trajectory::Status::kFailed);
+  EXPECT_EQ(adaptive.failure, "the mass matrix is singular, however short the step");
+  EXPECT_NEAR(adaptive.t_end, 0.35, model.simulation.step);
+  model.simulation.method = Method::kRk4;
+  EXPECT_EQ(propagate(engine, model).failure, "the mass matrix is singular");
+}
+
 TEST(Propagate, ReportsProgressNowAndThen) {
   Model model = toy_model();
   model.simulation.step = 1.0e-5;

@@ -1,0 +1,78 @@
+// A duel says that two engines differ; a third vote says which one is wrong. Simbody 3.7 on every
+// vehicle of the component battery and on the shipped models.
+#include <gtest/gtest.h>
+
+#include "compiler/diag/print.h"
+#include "compiler/pipeline.h"
+#include "runtime/bsm/engine.h"
+#include "runtime/mujoco/engine.h"
+#include "tests/support/simbody_oracle.h"
+
+namespace twincraft {
+namespace {
+
+Eigen::VectorXd accelerations(Engine& engine, const RandomState& state) {
+  const Eigen::VectorXd y = state_vector(state, engine.layout());
+  Eigen::VectorXd rate(y.size());
+  engine.hold_inputs(state.time);
+  const auto size = static_cast<std::size_t>(y.size());
+  engine.derivative(state.time, {y.data(), size}, {rate.data(), size});
+  return accelerations_of(rate, engine.layout());
+}
+
+class Simbody : public testing::TestWithParam<std::string> {};
+
+TEST_P(Simbody, AgreesWithBothEngines) {
+  Sources sources;
+  Diagnostics diagnostics;
+  const CompileResult result =
+      compile({TWINCRAFT_ROOT "/" + GetParam() + ".yaml", {}}, sources, diagnostics);
+  ASSERT_TRUE(result.bundle) << to_text(diagnostics, {});
+  const Model& model = result.bundle->model;
+  const auto bsm = make_bsm_engine(model);
+  const auto mujoco = make_mujoco_engine(model, result.bundle->mjcf);
+  for (const RandomState& state : random_states(model, 20)) {
+    const Eigen::VectorXd truth = test::simbody_accelerations(model, model.gravity.bsm, state);
+    const Eigen::VectorXd a = accelerations(*bsm, state), b = accelerations(*mujoco, state);
+    const auto agrees = [&truth](const Eigen::VectorXd& answer, Eigen::Index at,
+                                 Eigen::Index count) {
+      // Rates of about 0.1 rad/s make 0.01 of any acceleration; what is smaller is a difference.
+      const double scale = std::max(0.01, truth.segment(at, count).norm());
+      return (answer - truth).segment(at, count).norm() <= 1.0e-10 * scale;
+    };
+    const Eigen::Index rest = truth.size() - 6;
+    for (const Eigen::VectorXd& answer : {a, b}) {
+      EXPECT_TRUE(agrees(answer, 0, 3)) << "linear\n"
+                                        << answer.transpose() << "\n"
+                                        << truth.transpose();
+      EXPECT_TRUE(agrees(answer, 3, 3)) << "angular\n"
+                                        << answer.transpose() << "\n"
+                                        << truth.transpose();
+      EXPECT_TRUE(agrees(answer, 6, rest)) << "joints and wheels\n"
+                                           << answer.transpose() << "\n"
+                                           << truth.transpose();
+    }
+  }
+}
+
+std::string name_of(const testing::TestParamInfo<std::string>& one) {
+  return one.param.substr(one.param.rfind('/') + 1);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Components, Simbody,
+    testing::Values("tests/components/vehicles/hub", "tests/components/vehicles/wheel",
+                    "tests/components/vehicles/panel", "tests/components/vehicles/chain",
+                    "tests/components/vehicles/damped", "tests/components/vehicles/gravity",
+                    "tests/components/vehicles/arm", "tests/components/vehicles/arm_in_orbit",
+                    "tests/components/vehicles/particle", "tests/components/vehicles/pendulum",
+                    "tests/components/vehicles/bob", "tests/components/vehicles/burn"),
+    name_of);
+INSTANTIATE_TEST_SUITE_P(Models, Simbody,
+                         testing::Values("models/quickstart", "models/gallery/branched_arm",
+                                         "models/nesc/case_10a", "models/paper/orbit_extended",
+                                         "models/paper/variable_mass", "models/paper/flex_panels"),
+                         name_of);
+
+}  // namespace
+}  // namespace twincraft
