@@ -1,0 +1,116 @@
+// Whole RK4 steps of one spec.
+//   bench_steps SPEC [--set PATH=VALUE]... --engine E [--steps N]    runs them and exits: for
+//                                                                    callgrind and perf
+//   bench_steps SPEC [--set PATH=VALUE]... [--steps N] [--trials N]  a race in one process by the
+//                                                                    timing protocol; JSON
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "compiler/cli.h"
+#include "runtime/bsm/engine.h"
+#include "runtime/mujoco/engine.h"
+#include "runtime/study/timing.h"
+#include "tests/bench/raw_mujoco.h"
+#include "tests/bench/vehicle.h"
+
+namespace twincraft::bench {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  std::string spec;
+  std::vector<std::string> settings;
+  std::string engine;  // empty: a race
+  long steps = 1000;
+  int trials = 15;
+};
+
+TimedEngine raw_run(const std::string& name, const Bundle& bundle, Pipeline pipeline) {
+  const auto raw = std::make_shared<RawMujoco>(bundle.mjcf, pipeline);
+  const SimulationPlan& plan = bundle.model.simulation;
+  const auto steps = static_cast<std::size_t>(std::lround(plan.duration / plan.step));
+  return {name, [raw, steps, h = plan.step] { return run_raw(*raw, h, steps); }};
+}
+
+TimedEngine contestant(const std::string& name, const Bundle& bundle) {
+  const Model& model = bundle.model;
+  if (name == "forward") return raw_run(name, bundle, Pipeline::kForward);
+  if (name == "minimal") return raw_run(name, bundle, Pipeline::kMinimal);
+  if (name == "mujoco") return bare_run(make_mujoco_engine(model, bundle.mjcf), model);
+  const bsm::InstructionSet set =
+      name == "portable" ? bsm::InstructionSet::kPortable : bsm::best_instruction_set();
+  return bare_run(make_bsm_engine(model, set), model);
+}
+
+int run_alone(const Options& options, const Bundle& bundle) {
+  contestant(options.engine, bundle).run();
+  return kExitDone;
+}
+
+double us_per_step(double seconds, std::size_t steps) {
+  return 1.0e6 * seconds / static_cast<double>(steps);
+}
+
+Json race_json(const Options& options, const Bundle& bundle, const Timing& timing) {
+  Json engines = Json::object();
+  std::map<std::string, double> best;
+  for (const EngineTiming& engine : timing.engines) {
+    const double least = *std::min_element(engine.trials.begin(), engine.trials.end());
+    best[engine.name] = us_per_step(least, engine.steps);
+    engines[engine.name] = {{"best_us_per_step", best[engine.name]},
+                            {"median_us_per_step", 1.0e6 * engine.per_step()}};
+  }
+  return {{"spec", options.spec},
+          {"settings", options.settings},
+          {"degrees_of_freedom", bundle.model.degrees_of_freedom()},
+          {"step_s", bundle.model.simulation.step},
+          {"steps", options.steps},
+          {"protocol", protocol(timing)},
+          {"instructions", bsm::name_of(bsm::best_instruction_set())},
+          {"engines", engines},
+          {"ratios_of_best",
+           {{"forward_over_bsm", best["forward"] / best["bsm"]},
+            {"mujoco_over_bsm", best["mujoco"] / best["bsm"]},
+            {"mujoco_over_minimal", best["mujoco"] / best["minimal"]}}}};
+}
+
+int race(const Options& options, const Bundle& bundle) {
+  std::vector<TimedEngine> engines;
+  for (const char* name : {"bsm", "mujoco", "forward", "minimal"})
+    engines.push_back(contestant(name, bundle));
+  const Timing timing = time_engines(engines, options.trials, [](int, int) { return true; });
+  fmt::print("{}\n", race_json(options, bundle, timing).dump(2));
+  return kExitDone;
+}
+
+int parse_and_run(int argc, char** argv) {
+  CLI::App app{"Steps a spacecraft spec, to be counted or timed.", "bench_steps"};
+  Options options;
+  app.add_option("spec", options.spec, "spacecraft spec")->required();
+  app.add_option("--set", options.settings, "PATH=VALUE")->take_all()->allow_extra_args(false);
+  app.add_option("--engine", options.engine, "run this one and print nothing")
+      ->check(one_of({"bsm", "portable", "mujoco", "forward", "minimal"}));
+  app.add_option("--steps", options.steps, "of one run")->check(CLI::Range(1, 100'000'000));
+  app.add_option("--trials", options.trials, "of each contestant")->check(CLI::Range(1, 10'000));
+  if (const std::optional<int> code = parse_command_line(app, argc, argv)) return *code;
+  Bundle bundle = compiled(options.spec, options.settings);
+  set_steps(bundle.model, options.steps);
+  return options.engine.empty() ? race(options, bundle) : run_alone(options, bundle);
+}
+
+}  // namespace
+}  // namespace twincraft::bench
+
+int main(int argc, char** argv) {
+  try {
+    return twincraft::bench::parse_and_run(argc, argv);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "bench_steps: {}\n", error.what());
+    return twincraft::kExitFailure;
+  }
+}
