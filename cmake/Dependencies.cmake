@@ -1,4 +1,5 @@
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(xsimd 8.1 REQUIRED)
 find_package(fmt 9 REQUIRED)
 find_package(nlohmann_json 3.11 REQUIRED)
 find_package(yaml-cpp 0.7 REQUIRED)

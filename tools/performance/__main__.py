@@ -1,0 +1,69 @@
+"""Measure what a step costs. Called by tools/benchmark, which sees to packages first."""
+
+from __future__ import annotations
+
+import argparse
+import pathlib
+import sys
+
+import gate
+from document import document, holds
+from measure import measure
+from programs import ROOT, Failed
+
+EXIT_FINDINGS, EXIT_INPUT_OUTPUT, EXIT_BUILD, EXIT_INTERRUPTED = 1, 3, 125, 130
+
+
+def arguments() -> argparse.Namespace:
+    parser = argparse.ArgumentParser(
+        prog="tools/benchmark",
+        description="Race the engines, count their instructions and write PERFORMANCE.md.",
+        epilog="Exit: 0 every bound holds, 1 one does not, 2 usage, 3 input/output, 125 a program "
+        "could not be built or run, 130 interrupted.",
+    )
+    parser.add_argument(
+        "-o", "--output", metavar="FILE", type=pathlib.Path, default=ROOT / "PERFORMANCE.md"
+    )
+    parser.add_argument("--trials", type=int, default=15, help="of every race; default: 15")
+    parser.add_argument(
+        "--counts", action="store_true", help="only hold instruction counts against the stored ones"
+    )
+    parser.add_argument("--update", action="store_true", help="with --counts: store them")
+    options = parser.parse_args()
+    if options.update and not options.counts:
+        parser.error("--update goes with --counts")
+    if options.trials < 1:
+        parser.error("--trials: at least one")
+    return options
+
+
+def complain(text: str) -> None:
+    print(f"benchmark: {text}", file=sys.stderr, flush=True)
+
+
+def benchmark(options: argparse.Namespace) -> int:
+    if options.counts:
+        return gate.update() if options.update else gate.check()
+    results = measure(options.trials, complain)
+    gate.write(options.output, document(results))
+    verdict = "every bound holds" if holds(results) else "NOT every bound holds"
+    print(f"{options.output.name}: {verdict}")
+    return 0 if holds(results) else EXIT_FINDINGS
+
+
+def main() -> int:
+    options = arguments()
+    try:
+        return benchmark(options)
+    except Failed as failure:
+        complain(str(failure))
+        return EXIT_BUILD
+    except OSError as error:
+        complain(str(error))
+        return EXIT_INPUT_OUTPUT
+    except KeyboardInterrupt:
+        complain("interrupted")
+        return EXIT_INTERRUPTED
+
+
+sys.exit(main())

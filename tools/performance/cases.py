@@ -1,0 +1,39 @@
+"""What is measured: one line per vehicle. A further one is a further line."""
+
+from __future__ import annotations
+
+import dataclasses
+
+
+@dataclasses.dataclass(frozen=True)
+class Case:
+    name: str
+    spec: str
+    settings: tuple[str, ...] = ()
+
+    @property
+    def arguments(self) -> list[str]:
+        return [self.spec] + [word for setting in self.settings for word in ("--set", setting)]
+
+
+def paper(name: str) -> Case:
+    return Case(name, f"models/paper/{name}.yaml")
+
+
+def flex(segments: int) -> Case:
+    return Case(
+        f"flex, N={segments}", "models/paper/flex_panels.yaml", (f"panels.*.segments={segments}",)
+    )
+
+
+TABLE_1 = [
+    paper(name)
+    for name in ("orbit", "torque", "rw_panels", "orbit_compact", "orbit_extended", "variable_mass")
+]
+FLEX = {segments: flex(segments) for segments in (1, 2, 4, 8, 16, 32, 64)}
+# Trees whose joints the planar path does not serve.
+GENERAL = [Case("branched_arm", "models/gallery/branched_arm.yaml")]
+
+ALL = [*TABLE_1, *FLEX.values(), *GENERAL]
+# What tools/check counts.
+GATED = [*(case for case in TABLE_1 if case.name != "orbit_compact"), FLEX[16]]
