@@ -1,5 +1,5 @@
 // See kernel.h. This file is compiled once per instruction set. Only what lives in the namespace of
-// that set may come out of it: see tests/architecture. Tested by tests/runtime/kernel_test.cpp.
+// that set may come out of it: tests/architecture looks. Tested by tests/runtime/kernel_test.cpp.
 #include "runtime/bsm/kernel.h"
 
 #include "runtime/bsm/vehicle.h"

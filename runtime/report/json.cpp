@@ -30,6 +30,7 @@ Json provenance_json(const Provenance& provenance) {
           {"flags", provenance.flags},
           {"mujoco", provenance.mujoco},
           {"eigen", provenance.eigen},
+          {"instructions", provenance.instructions},
           {"cpu", provenance.cpu},
           {"cores", provenance.cores},
           {"load_average",

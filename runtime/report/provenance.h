@@ -13,7 +13,8 @@ struct Provenance {
   std::string flags;     // ours, as configured
   std::string mujoco;    // of the library that was loaded
   std::string eigen;
-  std::string cpu;  // empty when the system does not say
+  std::string instructions;  // the set the analytic engine chose: `x86-64`, `AVX2`, `AVX-512`
+  std::string cpu;           // empty when the system does not say
   int cores = 0;
   double load_average = 0.0;  // over the last minute; negative when the system does not say
 };

@@ -19,6 +19,7 @@ namespace twincraft {
 namespace {
 
 using nlohmann::json;
+using testing::AnyOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
@@ -77,6 +78,7 @@ TEST(ReportJson, NamesItsFormatVerdictAndSpec) {
 TEST(ReportJson, SaysWhichProgramAndMachineMadeIt) {
   const json provenance = parsed(sound_report())["provenance"];
   EXPECT_EQ(provenance["program"], "scsim " TWINCRAFT_VERSION);
+  EXPECT_THAT(provenance["instructions"], AnyOf("x86-64", "AVX2", "AVX-512"));
   for (const char* key : {"compiler", "flags", "mujoco", "eigen"})
     EXPECT_FALSE(provenance[key].get<std::string>().empty()) << key;
   for (const char* key : {"git", "cpu"}) EXPECT_TRUE(provenance[key].is_string()) << key;

@@ -1,0 +1,78 @@
+// Nothing leaks out of a kernel object of a wider instruction set: the linker keeps one copy of an
+// inline function of the same name, and that copy could be the one an older processor can not run.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "tests/support/run_program.h"
+
+namespace twincraft {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+struct KernelObject {
+  std::string set;
+  std::string path;
+};
+
+void PrintTo(const KernelObject& object, std::ostream* out) { *out << object.set; }
+
+class KernelSymbols : public testing::TestWithParam<KernelObject> {
+ protected:
+  void SetUp() override {
+#ifndef NDEBUG
+    GTEST_SKIP() << "without optimisation the library's own templates are not inlined";
+#endif
+  }
+
+  /// What the object defines for others to see.
+  std::vector<std::string> defined() const {
+    const test::ProgramResult nm = test::run_program(
+        TWINCRAFT_NM,
+        {"-C", "--defined-only", "--extern-only", "--format=just-symbols", GetParam().path});
+    EXPECT_EQ(nm.exit_code, 0) << nm.err;
+    std::vector<std::string> names;
+    std::istringstream lines(nm.out);
+    for (std::string line; std::getline(lines, line);) names.push_back(line);
+    return names;
+  }
+
+  /// Its mangled name holds a name of the set, so no other object defines the same.
+  bool is_own(const std::string& name) const {
+    return name.find("twincraft::bsm::" + GetParam().set + "::") != std::string::npos ||
+           name.find("xsimd_" + GetParam().set + "::") != std::string::npos;
+  }
+};
+
+/// Data, the same whoever defines it.
+bool is_shared_data(const std::string& name) {
+  return name == "typeinfo for twincraft::bsm::Kernel" ||
+         name == "typeinfo name for twincraft::bsm::Kernel" ||
+         name == "DW.ref.__gxx_personality_v0";
+}
+
+TEST_P(KernelSymbols, AreRead) {
+  EXPECT_THAT(defined(), Contains(HasSubstr(GetParam().set + "::new_kernel(")));
+}
+
+TEST_P(KernelSymbols, BelongToTheInstructionSet) {
+  std::vector<std::string> leaked;
+  for (const std::string& name : defined()) {
+    if (!is_own(name) && !is_shared_data(name)) leaked.push_back(name);
+  }
+  EXPECT_THAT(leaked, IsEmpty());
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, KernelSymbols,
+                         testing::Values(KernelObject{"avx2", TWINCRAFT_AVX2_OBJECT},
+                                         KernelObject{"avx512", TWINCRAFT_AVX512_OBJECT}),
+                         [](const auto& each) { return each.param.set; });
+
+}  // namespace
+}  // namespace twincraft
