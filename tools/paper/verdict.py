@@ -61,7 +61,7 @@ RULES = {
 class Row:
     what: str
     unit: str
-    published: float
+    published: float | None  # None: not published
     paper: float | None  # ours, the paper's way
     exact: float | None  # ours, the exact way
     verdict: str
@@ -104,6 +104,12 @@ class Section:
         if "bound" in entry and exact is not None:
             row.bound = entry["bound"]
             row.bound_verdict = HOLDS if exact <= row.bound else EXCEEDED
+        self.rows.append(row)
+
+    def bound(self, what: str, unit: str, ours: float, bound: float) -> None:
+        """A number of ours that was not published, below its bound."""
+        row = Row(what, unit.replace("_", "/"), None, None, ours, "", bound)
+        row.bound_verdict = HOLDS if ours <= bound else EXCEEDED
         self.rows.append(row)
 
     def figure(self, name: str, caption: str) -> None:
