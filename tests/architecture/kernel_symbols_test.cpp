@@ -21,7 +21,9 @@ struct KernelObject {
   std::string path;
 };
 
-void PrintTo(const KernelObject& object, std::ostream* out) { *out << object.set; }
+std::ostream& operator<<(std::ostream& out, const KernelObject& object) {
+  return out << object.set;
+}
 
 class KernelSymbols : public testing::TestWithParam<KernelObject> {
  protected:

@@ -24,7 +24,7 @@ def arguments() -> argparse.Namespace:
     parser.add_argument(
         "-o", "--output", metavar="FILE", type=pathlib.Path, default=ROOT / "PERFORMANCE.md"
     )
-    parser.add_argument("--trials", type=int, default=15, help="of every race; default: 15")
+    parser.add_argument("--trials", type=int, default=41, help="of every race; default: 41")
     parser.add_argument(
         "--counts", action="store_true", help="only hold instruction counts against the stored ones"
     )

@@ -33,11 +33,15 @@ def speed(results: Results, name: str) -> float:
     return results.races[name]["ratios_of_best"]["forward_over_bsm"]
 
 
-def slowest(results: Results, names: list[str], must: float, aim: float, what: str) -> Claim:
+def slowest(
+    results: Results, names: list[str], must: float, aim: float | None, what: str
+) -> Claim:
     worst = min(names, key=lambda name: speed(results, name))
     value = speed(results, worst)
     reached = f"{value:.1f}" + (f" ({worst})" if len(names) > 1 else "")
-    return Claim(what, f"≥ {must:g}", f"≥ {aim:g}", reached, value >= must, value >= aim)
+    aimed = "" if aim is None else f"≥ {aim:g}"
+    reaches = aim is not None and value >= aim
+    return Claim(what, f"≥ {must:g}", aimed, reached, value >= must, reaches)
 
 
 def exponent(small: float, large: float) -> float:
@@ -69,12 +73,11 @@ def heap(results: Results) -> float:
 
 
 def claims(results: Results) -> list[Claim]:
-    unforced = [FLEX[n].name for n in FLEX] + ["rw_panels"]
-    overhead = max(unforced, key=lambda name: wrapper(results, name))
+    overhead = max(PAPER, key=lambda name: wrapper(results, name))
     against = "times faster than MuJoCo's own `mj_forward` loop, "
     in_heap = heap(results)
     return [
-        slowest(results, PAPER, 4, 4, against + "worst row of all"),
+        slowest(results, PAPER, 4, None, against + "worst row of the paper's"),
         slowest(results, [FLEX[n].name for n in (1, 2, 4, 8)], 4, 15, against + "flex, N ≤ 8"),
         slowest(results, [SMALL], 4, 20, against + "flex, N=16"),
         slowest(results, [LARGE], 4, 30, against + "flex, N=32"),
@@ -100,8 +103,7 @@ def claims(results: Results) -> list[Claim]:
             "{:.2f}",
         ),
         at_most(
-            "our MuJoCo engine beyond MuJoCo's bare sub-stages, instructions, where no outside "
-            "force acts",
+            "our MuJoCo engine beyond MuJoCo's bare sub-stages, instructions",
             wrapper(results, overhead),
             10,
             3,

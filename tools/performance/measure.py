@@ -10,7 +10,7 @@ from cases import ALL, FLEX, Case
 from breakdown import shares
 
 COUNTED = ("portable", "bsm", "mujoco", "forward", "minimal")
-FEWER, MORE = 40, 120  # steps, of counted runs
+FEWER, MORE = 20, 60  # steps, of counted runs
 
 
 @dataclasses.dataclass
@@ -26,8 +26,8 @@ class Results:
 
 
 def steps_of(degrees_of_freedom: int) -> int:
-    """So many that building the run does not show, and a trial stays short."""
-    return max(500, 40_000 // degrees_of_freedom)
+    """So many that building the run hardly shows, and so few that a trial often is undisturbed."""
+    return max(250, 8_000 // degrees_of_freedom)
 
 
 def race(case: Case, trials: int) -> dict:
