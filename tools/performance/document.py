@@ -129,11 +129,13 @@ Models are those of the paper's Table 1, its flexible arrays at N segments each,
 
 {race_table(results)}
 
-One process, one thread, the runs of the four contestants interleaved and their order reversed on alternate rounds. *analytic*
+One process, one thread, the runs of the four contestants interleaved and their order reversed on alternate rounds, each
+timed by the processor time of the thread, so that a trial which another process interrupts costs no more. *analytic*
 ({instructions} here) and *MuJoCo engine* are the two engines of `scsim`, with everything a bare run needs. *`mj_forward`* and
 *sub-stages* are MuJoCo alone, on the same MJCF and with the same stepper, but with no force applied, no tank drained and no frame
 changed: in MuJoCo's favour. *sub-stages* are the eight calls that free multibody motion needs. The last column is
-`mj_forward` over analytic, best over best. Other work on the machine moves the medians first; the counts below it does not move.
+`mj_forward` over analytic, best over best. Other work on the machine still disturbs caches and cores;
+the counts below it does not move.
 
 ## Instructions of one RK4 step
 
