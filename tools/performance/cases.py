@@ -31,8 +31,14 @@ TABLE_1 = [
     for name in ("orbit", "torque", "rw_panels", "orbit_compact", "orbit_extended", "variable_mass")
 ]
 FLEX = {segments: flex(segments) for segments in (1, 2, 4, 8, 16, 32, 64)}
-# Trees whose joints the planar path does not serve.
-GENERAL = [Case("branched_arm", "models/gallery/branched_arm.yaml")]
+# Trees that take the general path: the arrays written as bodies, and an arm.
+GENERAL = [
+    *(
+        Case(f"bodies, N={segments}", f"models/paper/flex_bodies/{segments:02}.yaml")
+        for segments in (1, 2, 4, 8, 16, 32)
+    ),
+    Case("branched_arm", "models/gallery/branched_arm.yaml"),
+]
 
 ALL = [*TABLE_1, *FLEX.values(), *GENERAL]
 # What tools/check counts.
