@@ -159,6 +159,50 @@ void remove_key(Node& map, std::string_view key) {
   map.keys.erase(found);
 }
 
+/// A tree with some changes, as a bundle of its own.
+/// @param changes  applied one after the other
+/// @param before   made the tree what it is; the bundle names them first
+std::optional<Bundle> compile_changed(Node root, const std::vector<Override>& before,
+                                      std::vector<Override> changes, const Origin& origin,
+                                      Diagnostics& diagnostics) {
+  for (const Override& change : changes) apply(change, root, diagnostics);
+  if (diagnostics.has_errors()) return std::nullopt;
+  std::optional<Compiled> compiled = compile_tree(root, diagnostics);
+  if (!compiled) return std::nullopt;
+  require_one_machine(compiled->model);
+  changes.insert(changes.begin(), before.begin(), before.end());
+  return emit(std::move(compiled->model), compiled->spec, origin, changes);
+}
+
+class VariantsOfSpec : public Variants {
+ public:
+  VariantsOfSpec(Node root, std::vector<Override> command_line, Origin origin, Sources& sources)
+      : base_(std::move(root)),
+        command_line_(std::move(command_line)),
+        origin_(std::move(origin)),
+        sources_(sources) {
+    remove_key(base_, "study");
+  }
+
+  std::optional<Bundle> compile(const std::vector<std::string>& overrides,
+                                Diagnostics& diagnostics) const override {
+    const std::lock_guard lock(one_at_a_time_);  // neither Sources nor UDUNITS is for threads
+    std::vector<Override> changes;
+    for (const std::string& text : overrides)
+      if (std::optional<Override> change = parse_override(text, sources_, diagnostics))
+        changes.push_back(std::move(*change));
+    if (diagnostics.has_errors()) return std::nullopt;
+    return compile_changed(base_, command_line_, std::move(changes), origin_, diagnostics);
+  }
+
+ private:
+  Node base_;
+  std::vector<Override> command_line_;
+  Origin origin_;
+  Sources& sources_;
+  mutable std::mutex one_at_a_time_;
+};
+
 class StudyOfSpec : public Study {
  public:
   StudyOfSpec(Node root, StudyMembers members, std::vector<Override> command_line, Origin origin)
@@ -176,20 +220,14 @@ class StudyOfSpec : public Study {
 
   std::optional<Bundle> compile(std::size_t index, Diagnostics& diagnostics) const override {
     const std::lock_guard lock(one_at_a_time_);  // UDUNITS is no library for threads
-    std::vector<Override> changes = members_.overrides(index);
-    const std::optional<Node> root = tree_of(changes, diagnostics);
-    std::optional<Compiled> compiled =
-        root ? compile_tree(*root, diagnostics) : std::optional<Compiled>();
-    if (!compiled) return std::nullopt;
-    require_one_machine(compiled->model);
-    changes.insert(changes.begin(), command_line_.begin(), command_line_.end());
-    return emit(std::move(compiled->model), compiled->spec, origin_, changes);
+    return compile_changed(base_, command_line_, members_.overrides(index), origin_, diagnostics);
   }
 
   /// Whatever is wrong with one member, short of the proof and the printing.
   void check(std::size_t index, Diagnostics& diagnostics) const {
-    const std::optional<Node> root = tree_of(members_.overrides(index), diagnostics);
-    if (root) compile_tree(*root, diagnostics);
+    Node root = base_;
+    for (const Override& change : members_.overrides(index)) apply(change, root, diagnostics);
+    if (!diagnostics.has_errors()) compile_tree(root, diagnostics);
   }
 
  private:
@@ -197,14 +235,6 @@ class StudyOfSpec : public Study {
     remove_key(base_, "agreement");
     for (std::size_t i = 0; i < base_.keys.size(); ++i)
       if (base_.keys[i].name == "stored") remove_key(base_.items[i], "tolerance");
-  }
-
-  std::optional<Node> tree_of(const std::vector<Override>& changes,
-                              Diagnostics& diagnostics) const {
-    std::optional<Node> root = base_;
-    for (const Override& change : changes) apply(change, *root, diagnostics);
-    if (diagnostics.has_errors()) root.reset();
-    return root;
   }
 
   Node base_;
@@ -280,6 +310,7 @@ CompileResult compile(const CompileRequest& request, Sources& sources, Diagnosti
     result.study = std::move(study);
   }
   require_one_machine(compiled->model);
+  result.variants = std::make_unique<VariantsOfSpec>(*root, changes, origin, sources);
   result.bundle = emit(std::move(compiled->model), compiled->spec, origin, changes);
   return result;
 }

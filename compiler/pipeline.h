@@ -32,6 +32,19 @@ class Study {
   virtual std::optional<Bundle> compile(std::size_t index, Diagnostics& diagnostics) const = 0;
 };
 
+/// The spec itself with further changes, without its study; compiled when asked for, none kept.
+/// Lives no longer than the Sources it was read from.
+class Variants {
+ public:
+  virtual ~Variants() = default;
+
+  /// @param overrides  `PATH=VALUE`, after those of the command line
+  /// Nothing when the changed spec has errors. Any number of threads may call it at once, each with
+  /// diagnostics of its own. @throws InternalError as compile() does
+  virtual std::optional<Bundle> compile(const std::vector<std::string>& overrides,
+                                        Diagnostics& diagnostics) const = 0;
+};
+
 /// So many members of a study are checked by compile(); a larger study gets a note that says so.
 inline constexpr std::size_t kCheckedMembers = 10'000;
 
@@ -39,6 +52,7 @@ struct CompileResult {
   std::optional<Bundle> bundle = {};        // of the spec itself; nothing when there were errors
   std::string io_error = {};                // the file could not be read: exit code 3
   std::unique_ptr<const Study> study = {};  // when the spec has one
+  std::unique_ptr<const Variants> variants = {};  // with the bundle
 };
 
 /// The compiler contradicts itself: a bug of ours, with a text that asks to report it.
