@@ -7,130 +7,60 @@
 #include <csignal>
 #include <exception>
 #include <filesystem>
-#include <thread>
 
-#include "compiler/cli.h"
-#include "compiler/diag/print.h"
 #include "compiler/output.h"
-#include "compiler/pipeline.h"
+#include "runtime/attribute.h"
+#include "runtime/command.h"
 #include "runtime/interrupt.h"
 #include "runtime/members.h"
 #include "runtime/report/csv.h"
-#include "runtime/report/html/document.h"
-#include "runtime/report/json.h"
 #include "runtime/report/netcdf.h"
-#include "runtime/report/progress.h"
 #include "runtime/report/study_table.h"
 #include "runtime/report/table.h"
 
 namespace twincraft {
 namespace {
 
-struct Options {
-  CompileRequest request;
-  std::string folder;  // empty: no files
+struct Options : CommonOptions {
   bool netcdf = false;
-  std::string step, integrator, duration;
   std::string engine = "both";
   int trials = RunOptions{}.trials;
   bool no_timing = false;
-  int jobs = 0;  // 0: as many as there are cores
-  bool quiet = false;
-  std::string progress = "auto";
-  std::string diagnostics = "text";
 };
 
-void complain(std::string_view text) { fmt::print(stderr, "scsim: {}\n", text); }
-
 void describe_run(CLI::App& app, Options& options) {
-  app.add_option("spec", options.request.file, "spacecraft spec, or - for standard input")
-      ->type_name("SPEC")
-      ->required();
-  app.add_option("-o,--output", options.folder, "write report.json, report.html and CSV files here")
-      ->type_name("DIR");
+  describe_input(app, options, "report.json, report.html and CSV files");
   app.add_flag("--netcdf", options.netcdf, "also write trajectories as netCDF-4, with -o")
       ->needs(app.get_option("--output"));
-  app.add_option("--set", options.request.overrides, "change the spec first; repeatable")
-      ->type_name("PATH=VALUE")
-      ->allow_extra_args(false);
-  app.add_option("--step", options.step, "same as --set simulation.step=VALUE")->type_name("VALUE");
-  app.add_option("--integrator", options.integrator, "same as --set simulation.integrator=VALUE")
-      ->type_name("VALUE");
-  app.add_option("--duration", options.duration, "same as --set simulation.duration=VALUE")
-      ->type_name("VALUE");
   app.add_option("--engine", options.engine, "bsm, mujoco or both (default)")
       ->type_name("ENGINE")
       ->check(one_of({"bsm", "mujoco", "both"}));
-}
-
-void describe_output(CLI::App& app, Options& options) {
   app.add_option("--trials", options.trials, "timed trials per engine (default 5; 0: no timing)")
       ->type_name("N")
       ->check(CLI::Range(0, 1'000'000).description(""));
   app.add_flag("--no-timing", options.no_timing, "same as --trials 0");
-  app.add_option("--jobs", options.jobs,
-                 "members of a study at a time (default: all cores); timed ones run alone")
-      ->type_name("N")
-      ->check(CLI::Range(1, 1024).description(""));
-  app.add_flag("--quiet", options.quiet, "print no report and no progress");
-  app.add_option("--progress", options.progress, "auto (default), always or never")
-      ->type_name("WHEN")
-      ->check(one_of({"auto", "always", "never"}));
-  app.add_option("--diagnostics", options.diagnostics, "text (default) or json")
-      ->type_name("FORMAT")
-      ->check(one_of({"text", "json"}));
+  describe_jobs(app, options,
+                "members of a study at a time (default: all cores); timed ones run alone");
 }
 
 void describe(CLI::App& app, Options& options) {
   describe_run(app, options);
-  describe_output(app, options);
+  describe_talk(app, options);
   app.set_help_flag("-h,--help", "print this");
   app.set_version_flag("--version", "scsim " TWINCRAFT_VERSION, "print the version");
   app.get_formatter()->column_width(28);
   app.footer(
+      "scsim attribute SPEC explains a disagreement; see scsim attribute --help.\n\n"
       "Exit: 0 done, 1 faults in the spec or a tolerance exceeded, 2 usage, 3 input/output,\n"
       "4 numerical failure, 130/143 interrupted (what was computed is written).\n\n"
       "Example: scsim models/quickstart.yaml -o out --step '10 ms' --engine both");
 }
 
-void translate_conveniences(Options& options) {
-  const auto set = [&options](const char* path, const std::string& value) {
-    if (!value.empty()) options.request.overrides.push_back(fmt::format("{}={}", path, value));
-  };
-  set("simulation.step", options.step);
-  set("simulation.integrator", options.integrator);
-  set("simulation.duration", options.duration);
-  if (options.no_timing) options.trials = 0;
-}
-
-int print(std::string_view text) {
-  const std::string error = write_standard_output(text);
-  if (error.empty()) return kExitDone;
-  complain(error);
-  return kExitInputOutput;
-}
-
-int print_diagnostics(const Diagnostics& diagnostics, const Options& options) {
-  if (options.diagnostics == "json") return print(to_json(diagnostics));
-  PrintOptions look;
-  look.colour = wants_colour(STDERR_FILENO);
-  fmt::print(stderr, "{}", to_text(diagnostics, look));
-  return kExitDone;
-}
-
-bool shows_progress(const Options& options) {
-  if (options.quiet || options.progress == "never") return false;
-  return options.progress == "always" || ::isatty(STDERR_FILENO) != 0;
-}
-
 RunOptions run_options(const Options& options, ProgressBar& bar) {
-  RunOptions run;
+  RunOptions run = watched_run(options, bar);
   run.bsm = options.engine != "mujoco";
   run.mujoco = options.engine != "bsm";
   run.trials = options.trials;
-  run.stop = &watch_for_interrupts();
-  if (shows_progress(options))
-    run.progress = [&bar](std::string_view phase, double fraction) { bar.show(phase, fraction); };
   return run;
 }
 
@@ -156,21 +86,10 @@ std::string write_trajectories(std::size_t index, const ReportedMember& member,
   return files.empty() ? std::string() : write_files(files);
 }
 
-int write_report(const Report& report, const Options& options) {
-  if (options.folder.empty()) return kExitDone;
-  const std::filesystem::path folder = folder_of(0, options);
-  const std::string error = write_files({{(folder / "report.json").string(), report_json(report)},
-                                         {(folder / "report.html").string(), report_html(report)}});
-  if (error.empty()) return kExitDone;
-  complain(error);
-  return kExitInputOutput;
-}
-
 /// Files first: a reader of the report who leaves early must not cost the results.
 int deliver(const Report& report, const Options& options) {
-  const int written = write_report(report, options);
-  // With JSON diagnostics standard output holds that one document.
-  if (options.quiet || options.diagnostics == "json") return written;
+  const int written = write_report(report, options, Page::kYes);
+  if (!prints_report(options)) return written;
   const bool colour = wants_colour(STDOUT_FILENO);
   const int printed = print(report.study ? study_table(report, colour)
                                          : report_table(report.members.front(), colour));
@@ -230,10 +149,9 @@ std::vector<ReportedMember> run_members(CompileResult& compiled, const Options& 
     return members;
   }
   const Study& study = *compiled.study;
-  const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   return run_study(
       {study.plan(), [&study](std::size_t index) { return compile_member(study, index); }, finished,
-       options.jobs > 0 ? options.jobs : cores},
+       jobs_of(options)},
       run);
 }
 
@@ -257,23 +175,20 @@ int simulate(CompileResult compiled, const Options& options) {
 
 int compile_and_simulate(const Options& options) {
   Sources sources;
-  Diagnostics diagnostics;
-  CompileResult result = compile(options.request, sources, diagnostics);
-  if (!result.io_error.empty()) {
-    complain(result.io_error);
-    return kExitInputOutput;
-  }
-  if (const int code = print_diagnostics(diagnostics, options); code != kExitDone) return code;
-  if (!result.bundle) return kExitFindings;
+  CompileResult result;
+  if (const int code = compile_spec(options, sources, result); code != kExitDone) return code;
   return simulate(std::move(result), options);
 }
 
 int parse_and_run(int argc, char** argv) {
+  if (argc > 1 && std::string_view(argv[1]) == "attribute")
+    return attribute_command(argc - 1, argv + 1);
   CLI::App app{"Runs a spacecraft spec in both engines and says whether they agree.", "scsim"};
   Options options;
   describe(app, options);
   if (const std::optional<int> code = parse_command_line(app, argc, argv)) return *code;
   translate_conveniences(options);
+  if (options.no_timing) options.trials = 0;
   return compile_and_simulate(options);
 }
 

@@ -4,6 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "runtime/report/attribution_json.h"
+
 namespace twincraft {
 namespace {
 
@@ -246,6 +248,11 @@ Json report_value(const Report& report) {
             {"studies", studies_json(report)}};
   for (const ReportedMember& member : report.members)
     json["members"].push_back(member_json(member));
+  if (report.attribution) {
+    json["attribution"] = attribution_json(*report.attribution);
+    json["explanation"] =
+        explanation_json(*report.attribution, report.members.front().bundle.model);
+  }
   return json;
 }
 

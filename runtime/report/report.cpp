@@ -19,6 +19,7 @@ void ReportedMember::shed() {
 
 bool Report::complete() const {
   if (study && members.size() < study->members) return false;
+  if (attribution && !attribution->complete) return false;
   return std::all_of(members.begin(), members.end(),
                      [](const ReportedMember& member) { return member.result.complete; });
 }

@@ -8,6 +8,7 @@
 
 #include "compiler/ir/bundle.h"
 #include "runtime/report/provenance.h"
+#include "runtime/study/attribution.h"
 #include "runtime/study/run.h"
 #include "runtime/study/trends.h"
 #include "runtime/study/work_precision.h"
@@ -39,6 +40,8 @@ struct Report {
   Provenance provenance;
   std::vector<ReportedMember> members;  // at least one; of a study those that were begun
   std::optional<StudyPlan> study = {};  // nothing: a single run
+  // Of the one member, when it was asked for.
+  std::optional<Attribution> attribution = {};
 
   bool complete() const;
   /// kDisagree if any member disagrees; kAgree only if every member agrees.

@@ -9,29 +9,14 @@
 #include <cmath>
 #include <functional>
 
+#include "runtime/report/columns.h"
 #include "runtime/report/words.h"
 
 namespace twincraft {
 namespace {
 
-using Row = std::vector<std::string>;
-
 /// A study of a million members is a file, not a page.
 constexpr std::size_t kShownMembers = 200;
-
-std::string aligned(const std::vector<Row>& rows) {
-  std::vector<std::size_t> widths(rows.front().size(), 0);
-  for (const Row& row : rows)
-    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
-  std::string text;
-  for (const Row& row : rows) {
-    std::string line = " ";
-    for (std::size_t i = 0; i < row.size(); ++i) line += fmt::format(" {:<{}} ", row[i], widths[i]);
-    line.erase(line.find_last_not_of(' ') + 1);
-    text += line + "\n";
-  }
-  return text;
-}
 
 std::string engine_label(std::string_view engine) { return engine == "bsm" ? "BSM" : "MuJoCo"; }
 

@@ -39,6 +39,12 @@ bool is_worth_showing(const Metric& metric) {
   return metric.key != "mass_kg" || metric.tolerance || metric.maximum != 0.0;
 }
 
+}  // namespace
+
+std::string heading(const Model& model) {
+  return fmt::format("{}   {}   {}\n\n", model.name, vehicle_words(model), plan_words(model));
+}
+
 std::string agreement_block(const ReportedMember& member, bool colour) {
   if (!member.result.comparison) return {};
   std::string text = row("agreement", "maximum", "at", "tolerance");
@@ -52,6 +58,8 @@ std::string agreement_block(const ReportedMember& member, bool colour) {
   }
   return text;
 }
+
+namespace {
 
 std::string engine_label(std::string_view engine) { return engine == "bsm" ? "BSM" : "MuJoCo"; }
 
@@ -143,9 +151,7 @@ std::string verdict_line(const Member& result, bool colour) {
 }  // namespace
 
 std::string report_table(const ReportedMember& member, bool colour) {
-  const Model& model = member.bundle.model;
-  std::string text =
-      fmt::format("{}   {}   {}\n\n", model.name, vehicle_words(model), plan_words(model));
+  std::string text = heading(member.bundle.model);
   text += agreement_block(member, colour);
   text += reference_block(member, colour);
   text += conservation_block(member.result);

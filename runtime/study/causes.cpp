@@ -54,10 +54,9 @@ std::vector<Scaling> scale_speed(const Bundle& bundle) {
   std::vector<Scaling> scalings;
   if (!in_deep_space(bundle) || v.isZero(0.0)) return scalings;
   for (double factor : {0.5, 0.25})
-    scalings.push_back(
-        {factor,
-         {fmt::format("initial.velocity=[{}, {}, {}]", shortest(factor * v.x()),
-                      shortest(factor * v.y()), shortest(factor * v.z()))}});
+    scalings.push_back({factor,
+                        {fmt::format("initial.velocity=[{}, {}, {}]", shortest(factor * v.x()),
+                                     shortest(factor * v.y()), shortest(factor * v.z()))}});
   return scalings;
 }
 
