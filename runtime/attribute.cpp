@@ -144,7 +144,10 @@ int explain(CompileResult compiled, const CommonOptions& options) {
   report.members.push_back(run_one(without_references(std::move(compiled.bundle)), run));
   const ReportedMember& member = report.members.front();
   bar.clear();
-  if (const int code = check_flown(member.result); code != kExitDone) return code;
+  if (const int code = check_flown(member.result); code != kExitDone) {
+    const int written = write_report(report, options);
+    return written != kExitDone ? written : code;
+  }
   const Subject subject = choose(member);
   report.attribution =
       attribute(member.bundle, subject, error_of(subject, member.result),

@@ -15,9 +15,8 @@ namespace {
 
 /// An exponent this near to a whole number has its name.
 constexpr double kNear = 0.15;
-/// A cause is worth naming from here on; causes are named until so much is accounted for.
+/// A cause is worth naming from here on, for or against the difference.
 constexpr double kWorthNaming = 0.05;
-constexpr double kEnough = 0.95;
 
 /// 0 when it is near none.
 int whole(double exponent) {
@@ -42,12 +41,8 @@ std::string named(const AttributedCause& cause) {
 
 std::vector<std::string> dominant(const Attribution& attribution) {
   std::vector<std::string> names;
-  double sum = 0.0;
-  for (const AttributedCause& cause : attribution.causes) {
-    if (!(cause.share >= kWorthNaming) || sum >= kEnough) break;
-    sum += cause.share;
-    names.push_back(named(cause));
-  }
+  for (const AttributedCause& cause : attribution.causes)
+    if (std::abs(cause.share) >= kWorthNaming) names.push_back(named(cause));
   return names;
 }
 
@@ -70,7 +65,9 @@ std::string law_words(const ScalingLaw& law) {
 }
 
 std::string share_words(double share) {
-  return std::isnan(share) ? "-" : fmt::format("{:.1f} %", 100.0 * share);
+  if (std::isnan(share)) return "-";
+  const std::string text = fmt::format("{:.1f} %", 100.0 * share);
+  return text == "-0.0 %" ? "0.0 %" : text;
 }
 
 std::string remainder_words(const Attribution& attribution) {

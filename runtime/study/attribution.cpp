@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numbers>
+#include <string_view>
 
 namespace twincraft {
 namespace {
@@ -16,8 +18,16 @@ constexpr double kOutOfTheNoise = 30.0;
 /// Half of Euler's order; a difference of the machines has order zero.
 constexpr double kLeastOrder = 0.5;
 
+std::string_view path_of(std::string_view change) { return change.substr(0, change.find('=')); }
+
+/// Where both change one place, `b` has the last word.
 Overrides together(const Overrides& a, const Overrides& b) {
-  Overrides all = a;
+  Overrides all;
+  std::copy_if(a.begin(), a.end(), std::back_inserter(all), [&b](const std::string& change) {
+    return std::none_of(b.begin(), b.end(), [&change](const std::string& later) {
+      return path_of(later) == path_of(change);
+    });
+  });
   all.insert(all.end(), b.begin(), b.end());
   return all;
 }
@@ -30,7 +40,7 @@ class Variations {
     results_.push_back({std::move(as_is), {}});
   }
 
-  /// Its number. The order of changes to different places makes no difference.
+  /// Its number. The order of changes, each to a place of its own, makes no difference.
   std::size_t ask(Overrides variant) {
     std::sort(variant.begin(), variant.end());
     const auto known = std::find(asked_.begin(), asked_.end(), variant);
@@ -126,10 +136,10 @@ double share_of(const Variations& variations, std::size_t without) {
   return share(*variations.error(0), *variations.error(without));
 }
 
-/// By share; what could not be run comes last.
+/// By the size of the share, for or against; what could not be run comes last.
 bool carries_more(const AttributedCause& a, const AttributedCause& b) {
   if (std::isnan(a.share) || std::isnan(b.share)) return !std::isnan(a.share);
-  return a.share > b.share;
+  return std::abs(a.share) > std::abs(b.share);
 }
 
 void remove_one_after_another(Variations& variations, double unit,

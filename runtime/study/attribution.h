@@ -53,7 +53,7 @@ struct Attribution {
   Subject subject;
   double maximum = 0.0;                   // of the spec as it is, in the metric's unit
   bool is_rounding = false;               // there is nothing to explain: no cause was looked at
-  std::vector<AttributedCause> causes;    // by share, the largest first
+  std::vector<AttributedCause> causes;    // by the size of the share, the largest first
   double remainder = 0.0;                 // with all causes taken away, in the metric's unit
   std::optional<double> remainder_order;  // in the step, when it is more than rounding
   Remainder kind = Remainder::kRounding;

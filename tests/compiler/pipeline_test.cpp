@@ -77,6 +77,27 @@ TEST_F(Pipeline, ReportsABadOverrideAsAFault) {
   EXPECT_THAT(codes(), Contains(Code::kOverrideForm));
 }
 
+TEST_F(Pipeline, CompilesVariantsOnTopOfTheCommandLineAndWithoutTheStudy) {
+  const CompileResult result =
+      compile_text(std::string(kBrick) + "study: {sweep: [{set: hub.mass, values: [1, 2]}]}\n",
+                   {"hub.mass=700 kg"});
+  ASSERT_TRUE(result.variants);
+  Diagnostics diagnostics;
+  const auto resolved = [&](const std::vector<std::string>& overrides) {
+    const std::optional<Bundle> variant = result.variants->compile(overrides, diagnostics);
+    return variant ? nlohmann::json::parse(variant->resolved_json) : nlohmann::json();
+  };
+  EXPECT_EQ(resolved({})["hub"]["mass"], 700.0);
+  const nlohmann::json halved = resolved({"simulation.step=50 ms"});
+  EXPECT_EQ(halved["hub"]["mass"], 700.0);
+  EXPECT_EQ(halved["simulation"]["step"], 0.05);
+  EXPECT_FALSE(halved.contains("study"));
+  EXPECT_EQ(resolved({})["simulation"]["step"], 0.1);  // one variant leaves no trace in the next
+  EXPECT_THAT(diagnostics.all(), SizeIs(0));
+  EXPECT_TRUE(resolved({"hub.mass=-1"}).is_null());
+  EXPECT_TRUE(diagnostics.has_errors());
+}
+
 TEST_F(Pipeline, CannotReadWhatIsNotThere) {
   const CompileResult result = compile({"/no/such/spec.yaml", {}}, sources_, diagnostics_);
   EXPECT_FALSE(result.bundle);
