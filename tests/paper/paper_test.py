@@ -20,7 +20,7 @@ import document  # noqa: E402
 import plot  # noqa: E402
 import runs  # noqa: E402
 import verdict  # noqa: E402
-from sections import SECTIONS, burn, torque  # noqa: E402
+from sections import SECTIONS, burn, torque, why  # noqa: E402
 
 
 class Rules(unittest.TestCase):
@@ -127,6 +127,21 @@ class Runs(unittest.TestCase):
         for code, entries in ((4, {}), (0, {"complete": False}), (1, {"verdict": "disagree"})):
             with self.assertRaises(runs.RunFailed):
                 self.report(code, **entries)
+
+    def test_a_disagreement_that_is_explained_is_no_failure(self):
+        self.assertEqual(self.report(0, verdict="disagree", attribution=[]).members, [])
+
+    def test_a_difference_with_another_cause_than_the_papers_is_a_failure(self):
+        found = {"cause": "wheel_mass", "name": "token wheel mass", "share": 1.0, "law": None}
+        found |= {"no_law": "none", "maximum": 1.0, "maximum_without": 0.0}
+        left = {"remainder": 0.0, "remainder_is": "rounding", "remainder_order": None}
+        report = runs.Report(pathlib.Path("x"), {"attribution": [found], "explanation": left})
+        self.assertEqual(len(why.rows_of("6.3", "wheel_mass", report)), 2)
+        with self.assertRaisesRegex(runs.RunFailed, "token wheel mass"):
+            why.rows_of("6.3", "bob_inertia", report)
+        left["remainder_is"] = "unexplained"
+        with self.assertRaisesRegex(runs.RunFailed, "unexplained"):
+            why.rows_of("6.3", "wheel_mass", report)
 
     def test_a_missing_spec_names_the_run(self):
         with contextlib.redirect_stderr(io.StringIO()):
