@@ -24,6 +24,8 @@ std::string_view kind_name(Remainder kind) {
       return "rounding";
     case Remainder::kIntegrator:
       return "integrator";
+    case Remainder::kUnknown:
+      return "unknown";
     case Remainder::kUnexplained:
       break;
   }

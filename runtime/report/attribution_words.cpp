@@ -76,6 +76,8 @@ std::string remainder_words(const Attribution& attribution) {
       return "rounding";
     case Remainder::kIntegrator:
       return fmt::format("the integrator's error, {}", order_words(*attribution.remainder_order));
+    case Remainder::kUnknown:
+      return "not run to the end";
     case Remainder::kUnexplained:
       break;
   }
@@ -89,7 +91,7 @@ std::string conclusion(const Attribution& attribution, const Model& model) {
     return fmt::format(
         "nothing to explain: {} differs by {}, which is rounding (up to {})", label, maximum,
         amount(attribution.subject.unit * attribution.subject.rounding, attribution, model));
-  if (std::isnan(attribution.remainder))
+  if (attribution.kind == Remainder::kUnknown)
     return fmt::format("not explained to the end: {}", attribution.failure);
   const std::string remainder = amount(attribution.remainder, attribution, model);
   const std::vector<std::string> names = dominant(attribution);

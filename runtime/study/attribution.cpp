@@ -124,7 +124,8 @@ void find_law(const Asked& asked, const Variations& variations, double noise, do
     y.push_back(contribution);
   }
   if (x.size() < 2) {
-    result.no_law = "too little to measure a law";
+    const bool all_flown = law.factors.size() == asked.scaled.size();
+    result.no_law = all_flown ? "too little to measure a law" : "not run to the end";
     return;
   }
   law.exponent = log_slope(x, y);
@@ -160,7 +161,7 @@ void judge_remainder(const Variations& variations, std::size_t all, std::size_t 
                      Attribution& result) {
   const double left = variations.maximum(all), at_half = variations.maximum(halved);
   result.remainder = result.subject.unit * left;
-  result.kind = Remainder::kUnexplained;
+  result.kind = std::isnan(left) ? Remainder::kUnknown : Remainder::kUnexplained;
   if (left <= result.subject.rounding) {
     result.kind = Remainder::kRounding;
   } else if (halved != all && at_half > 0.0) {

@@ -47,7 +47,8 @@ struct AttributedCause {
   double maximum_left = 0.0;  // with this cause and all before it taken away
 };
 
-enum class Remainder { kRounding, kIntegrator, kUnexplained };
+/// kUnknown: the variant without any cause could not be run to its end.
+enum class Remainder { kRounding, kIntegrator, kUnexplained, kUnknown };
 
 struct Attribution {
   Subject subject;

@@ -162,6 +162,18 @@ TEST_F(Attributing, KeepsGoingWhenAVariantCanNotBeFlown) {
   EXPECT_FALSE(std::isnan(found.causes.front().share));
 }
 
+TEST_F(Attributing, SaysNothingOfARemainderThatWasNotRun) {
+  const RunVariants interrupted = [](const std::vector<Overrides>&) {
+    return std::vector<VariantResult>();
+  };
+  const Attribution found =
+      attribute(bundle, {"attitude_deg", 1.0, 1.0e-12}, *fly({}).error, interrupted);
+  EXPECT_FALSE(found.complete);
+  EXPECT_EQ(found.kind, Remainder::kUnknown);
+  EXPECT_EQ(found.causes.front().no_law, "not run to the end");
+  EXPECT_THAT(conclusion(found, bundle.model), HasSubstr("interrupted"));
+}
+
 TEST_F(Attributing, LooksAtNoCauseOfRounding) {
   bundle.model.engines.bob_inertia = 0.0;
   const RunVariants none = [](const std::vector<Overrides>&) -> std::vector<VariantResult> {
