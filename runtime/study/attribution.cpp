@@ -51,6 +51,7 @@ class Variations {
 
   /// All that were asked for since the last time.
   void run() {
+    if (asked_.size() == results_.size()) return;
     const auto begin = asked_.begin() + static_cast<std::ptrdiff_t>(results_.size());
     std::vector<VariantResult> results = run_({begin, asked_.end()});
     results.resize(static_cast<std::size_t>(asked_.end() - begin), {{}, "interrupted"});
