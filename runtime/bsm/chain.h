@@ -297,14 +297,12 @@ class Chain {
     }
 
     const Vec<S>&x = dcm_WC_.x, &along = dcm_WC_.y, &z = dcm_WC_.z;
-    Law<S> law;
-    law.J = G.in_axes(x, z);
-    law.M = M.in_axes(x, z) + Sym<S>::parallel(mass * along, along);
     const Vec<S> lever = moment.x * z - moment.z * x;  // S cross s
-    law.H = {along.x * lever, along.y * lever, along.z * lever};
-    law.n0 = n0.x * x + tau_child * along + n0.z * z;
-    law.f0 = f_child.x * x + f0_s * along + f_child.z * z;
-    return law;
+    return {G.in_axes(x, z),
+            M.in_axes(x, z) + Sym<S>::parallel(mass * along, along),
+            {along.x * lever, along.y * lever, along.z * lever},
+            n0.x * x + tau_child * along + n0.z * z,
+            f_child.x * x + f0_s * along + f_child.z * z};
   }
 
   int mount_ = -1;

@@ -88,6 +88,21 @@ void set_lane(simd::batch<double, A>& value, std::size_t index, double to) {
   std::memcpy(reinterpret_cast<char*>(&value) + sizeof(double) * index, &to, sizeof to);
 }
 
+/// An S whose lane l is number(l). Two numbers become one register at once: a register read back
+/// right after its lanes were stored one by one has to wait for them.
+template <class S, class Number>
+S from_lanes(const Number& number) {
+  if constexpr (kLanes<S> == 1) {
+    return number(0);
+  } else if constexpr (kLanes<S> == 2) {
+    return S(_mm_set_pd(number(1), number(0)));
+  } else {
+    S value;
+    for (std::size_t l = 0; l < kLanes<S>; ++l) set_lane(value, l, number(l));
+    return value;
+  }
+}
+
 /// Entry `index` of a state of H: one number per spacecraft.
 template <class H>
 H entry(const double* state, int index) {

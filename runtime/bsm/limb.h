@@ -17,8 +17,13 @@ template <class H, class S>
 struct RotorOn {
   Vec<S> axis_L;
   S spin_inertia{}, motor_torque{};
+  S spin_up{};  // [rad/s^2] what the motor gives a wheel on a mount at rest
   Places<H, S> speed{};
 
+  void hold(std::size_t l, double torque) {
+    set_lane(motor_torque, l, torque);
+    set_lane(spin_up, l, torque / lane(spin_inertia, l));
+  }
   void set(std::size_t l, const RotorConstants& from, int place) {
     set_lane(axis_L, l, from.axis_L);
     set_lane(spin_inertia, l, from.spin_inertia);
@@ -33,10 +38,18 @@ struct LinkMass {
   Vec<S> moment;  // [kg m] mass times the centre of mass from the link's origin, link axes
   Sym<S> J;       // [kg m^2] about the origin, without the axial inertia of rotors
 
-  void set(std::size_t l, const bsm::LinkConstants& from) {
-    set_lane(mass, l, from.mass);
-    set_lane(moment, l, from.first_moment);
-    set_lane(J, l, from.J_L);
+  using Constants = std::array<const bsm::LinkConstants*, kLanes<S>>;
+
+  void set(const Constants& of) {
+    mass = from_lanes<S>([&of](std::size_t l) { return of[l]->mass; });
+    const auto moments = [&of](std::size_t i) {
+      return from_lanes<S>([&of, i](std::size_t l) { return of[l]->first_moment.data()[i]; });
+    };
+    moment = {moments(0), moments(1), moments(2)};
+    const auto inertia = [&of](std::size_t i) {
+      return from_lanes<S>([&of, i](std::size_t l) { return of[l]->J_L.data()[i]; });
+    };
+    J = {inertia(0), inertia(4), inertia(8), inertia(1), inertia(2), inertia(5)};
   }
 };
 
@@ -53,6 +66,13 @@ class Limb {
     laws_.resize(first.links.size());
     recoveries_.resize(first.links.size());
     for (std::size_t l = 0; l < lanes.size(); ++l) set(l, *lanes[l], *plans[l], layout);
+    for (std::size_t i = 0; i < links_.size(); ++i) {
+      typename LinkMass<S>::Constants of{};
+      for (std::size_t l = 0; l < lanes.size(); ++l) {
+        of[l] = &plans[l]->tree.links.data()[lanes[l]->links.data()[i].link];
+      }
+      links_[i].mass.set(of);
+    }
     for (std::size_t c = 0; c < first.chains.size(); ++c) {
       std::array<const ChainPlan*, kLanes<S>> of_lanes;
       for (std::size_t l = 0; l < lanes.size(); ++l) of_lanes[l] = &lanes[l]->chains[c];
@@ -60,13 +80,20 @@ class Limb {
     }
   }
 
-  void set_masses(std::size_t l, const LimbPlan& limb, const Plan& plan) {
+  void set_masses(Lanes lanes, Plans plans) {
     for (std::size_t i = 0; i < links_.size(); ++i) {
-      const auto& constants = plan.tree.links.data()[limb.links.data()[i].link];
-      if (!constants.drains) continue;
-      links_[i].mass.set(l, constants);
+      typename LinkMass<S>::Constants of{};
+      bool drains = false;
+      for (std::size_t l = 0; l < kLanes<S>; ++l) {
+        of[l] = &plans[l]->tree.links.data()[lanes[l]->links.data()[i].link];
+        drains = drains || of[l]->drains;
+      }
+      if (!drains) continue;
+      links_[i].mass.set(of);
       for (std::size_t e = 0; e < links_[i].elements.size(); ++e) {
-        links_[i].elements[e].set_mass(l, limb.links.data()[i].elements.data()[e]);
+        for (std::size_t l = 0; l < kLanes<S>; ++l) {
+          links_[i].elements[e].set_mass(l, lanes[l]->links.data()[i].elements.data()[e]);
+        }
       }
     }
   }
@@ -80,8 +107,7 @@ class Limb {
       set_lane(links_[i].held.torque, l, held.torque_L.data()[link]);
       set_lane(links_[i].held_at_center, l, held.force_at_center_L.data()[link]);
       for (std::size_t k = 0; k < links_[i].rotors.size(); ++k) {
-        set_lane(links_[i].rotors[k].motor_torque, l,
-                 held.motor_torque.data()[from.rotors.data()[k]]);
+        links_[i].rotors[k].hold(l, held.motor_torque.data()[from.rotors.data()[k]]);
       }
     }
     for (std::size_t c = 0; c < chains_.size(); ++c) {
@@ -139,8 +165,7 @@ class Limb {
       (link.slides ? m.a : m.omega_dot) += q_ddot * m.axis;
       for (const RotorOn<H, S>& rotor : link.rotors) {
         const Vec<S> axis = m.at.dcm_WL * rotor.axis_L;
-        scatter<H, S>(rotor.motor_torque / rotor.spin_inertia - dot(axis, m.omega_dot), rate,
-                      rotor.speed);
+        scatter<H, S>(rotor.spin_up - dot(axis, m.omega_dot), rate, rotor.speed);
       }
     }
     for (const Chain<H, S>& chain : chains_) {
@@ -155,6 +180,7 @@ class Limb {
     int parent = -1;
     bool slides = false;
     int damped_by_cosine_of = -1;
+    bool is_massless = true;  // for good, in every lane, and without rotors
     Mat<S> turn_fixed, turn_cos, turn_sin;
     Vec<S> r_HP_P, axis_P;
     S stiffness{}, damping{}, rest{}, effort{};
@@ -187,6 +213,14 @@ class Limb {
   static std::size_t index(int i) { return static_cast<std::size_t>(i); }
   const MountMotion<S>& mount(int i) const { return i < 0 ? hub_ : motions_[index(i)].at; }
 
+  /// Such as the first of a pendulum's two links.
+  static bool has_no_mass(const bsm::LinkConstants& link) {
+    bool all_zero = link.mass == 0.0 && !link.drains;
+    for (std::size_t i = 0; i < 3; ++i) all_zero = all_zero && link.first_moment.data()[i] == 0.0;
+    for (std::size_t i = 0; i < 9; ++i) all_zero = all_zero && link.J_L.data()[i] == 0.0;
+    return all_zero;
+  }
+
   void set(std::size_t l, const LimbPlan& limb, const Plan& plan, const Layout& layout) {
     for (std::size_t i = 0; i < links_.size(); ++i) {
       const LinkPlan& from = limb.links[i];
@@ -203,7 +237,7 @@ class Limb {
       set_lane(link.stiffness, l, constants.stiffness);
       set_lane(link.damping, l, constants.damping);
       set_lane(link.rest, l, constants.rest);
-      link.mass.set(l, constants);
+      link.is_massless = link.is_massless && has_no_mass(constants) && from.rotors.empty();
       link.position[l % kLimbs<H, S>] = layout.position(from.link);
       link.rate[l % kLimbs<H, S>] = layout.rate(from.link);
       if (l == 0) {
@@ -271,11 +305,17 @@ class Limb {
     const Mat<S>& dcm = m.at.dcm_WL;
     const Vec<S>& omega = m.at.omega;
     Law<S>& law = laws_[i];
-    law.J = link.mass.J.turned(dcm);
-    law.H = cross_matrix(m.moment);
-    law.M = Sym<S>::isotropic(link.mass.mass);
-    law.n0 = cross(omega, law.J * omega + m.spin) - dcm * link.held.torque;
-    law.f0 = cross(omega, cross(omega, m.moment)) - dcm * link.held.force;
+    if (link.is_massless) {
+      law = {};
+      law.n0 = -(dcm * link.held.torque);
+      law.f0 = -(dcm * link.held.force);
+    } else {
+      law.J = link.mass.J.turned(dcm);
+      law.H = cross_matrix(m.moment);
+      law.M = Sym<S>::isotropic(link.mass.mass);
+      law.n0 = cross(omega, law.J * omega + m.spin) - dcm * link.held.torque;
+      law.f0 = cross(omega, cross(omega, m.moment)) - dcm * link.held.force;
+    }
     for (const RotorOn<H, S>& rotor : link.rotors) {
       law.n0 += dcm * (rotor.motor_torque * rotor.axis_L);
     }

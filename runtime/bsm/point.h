@@ -29,14 +29,17 @@ class Point {
       set_lane(stiffness_, l, constants.stiffness);
       set_lane(damping_, l, constants.damping);
       set_lane(rest_, l, constants.rest);
-      set_lane(mass_, l, constants.mass);
       position_[l % kLimbs<H, S>] = layout.position(from.link);
       rate_[l % kLimbs<H, S>] = layout.rate(from.link);
     }
+    set_masses(lanes, plans);
   }
 
-  void set_masses(std::size_t l, const LimbPlan& limb, const Plan& plan) {
-    set_lane(mass_, l, plan.tree.links.data()[limb.links.data()->link].mass);
+  void set_masses(Lanes lanes, Plans plans) {
+    mass_ = from_lanes<S>([&](std::size_t l) {
+      return plans[l]->tree.links.data()[lanes[l]->links.data()->link].mass;
+    });
+    inverse_mass_ = S(1.0) / mass_;
   }
 
   void hold(std::size_t l, const LimbPlan& limb, const HeldInputs& held) {
@@ -69,22 +72,22 @@ class Point {
       torque += cross(*r_CB - r_, force);
     }
     const Vec<S> f0 = mass_ * a_bias_ - pull;
-    gain_ = (u_ - dot(axis_, f0)) / mass_;
+    gain_ = inverse_mass_ * (u_ - dot(axis_, f0));
 
     const Vec<S>&r = r_, &s = axis_;
     const Vec<S> ms = mass_ * s, mr = mass_ * r, e = cross(r, s), me = mass_ * e;
     const S mr2 = dot(mr, r);
-    Law<S> law;
-    law.M = Sym<S>::isotropic(mass_);
-    law.M.subtract(ms, s);
-    law.H = cross_matrix(mr);
-    law.H.subtract(me, s);
-    law.J = Sym<S>::isotropic(mr2);
-    law.J.subtract(mr, r);
-    law.J.subtract(me, e);
-    law.f0 = f0 + gain_ * ms;
-    law.n0 = cross(r, law.f0) - torque;
-    return law;
+    const Vec<S> f = f0 + gain_ * ms;
+    return {{mr2 - mr.x * r.x - me.x * e.x, mr2 - mr.y * r.y - me.y * e.y,
+             mr2 - mr.z * r.z - me.z * e.z, -(mr.x * r.y) - me.x * e.y, -(mr.x * r.z) - me.x * e.z,
+             -(mr.y * r.z) - me.y * e.z},
+            {mass_ - ms.x * s.x, mass_ - ms.y * s.y, mass_ - ms.z * s.z, -(ms.x * s.y),
+             -(ms.x * s.z), -(ms.y * s.z)},
+            {{-(me.x * s.x), mr.z - me.y * s.x, -mr.y - me.z * s.x},
+             {-mr.z - me.x * s.y, -(me.y * s.y), mr.x - me.z * s.y},
+             {mr.y - me.x * s.z, -mr.x - me.y * s.z, -(me.z * s.z)}},
+            cross(r, f) - torque,
+            f};
   }
 
   void recover(const Vec<S>& omega_dot_B, const Vec<S>& a_B, double* rate) const {
@@ -94,7 +97,7 @@ class Point {
  private:
   Vec<S> r_HB_, axis_;
   Mat<S> dcm_BL_;
-  S stiffness_{}, damping_{}, rest_{}, mass_{}, effort_{};
+  S stiffness_{}, damping_{}, rest_{}, mass_{}, inverse_mass_{}, effort_{};
   Vec<S> force_L_, torque_L_, force_at_center_L_;
   Places<H, S> position_{}, rate_{};
   Vec<S> r_, a_bias_;

@@ -27,7 +27,7 @@ class Vehicle {
     elements_.resize(plan_.hub.elements.size());
     rotors_.resize(plan_.hub.rotors.size());
     for (std::size_t l = 0; l < plans.size(); ++l) set_hub(l, *plans[l]);
-    set_hub_matrices();
+    set_hub_mass(plans);
     group_limbs(plans);
     is_rigid_ = plan_.limbs.empty() && !plan_.tree.links.data()->drains;
     if (is_rigid_) factors_ = HubFactors(hub_);
@@ -36,20 +36,17 @@ class Vehicle {
   }
 
   void set_masses(Plans plans) {
-    for (std::size_t l = 0; l < plans.size(); ++l) {
-      const Plan& plan = *plans[l];
-      if (!plan.tree.links.data()->drains) continue;
-      mass_.set(l, *plan.tree.links.data());
-      for (std::size_t e = 0; e < elements_.size(); ++e) {
-        elements_[e].set_mass(l, plan.hub.elements.data()[e]);
+    if (plan_.tree.links.data()->drains) {
+      set_hub_mass(plans);
+      for (std::size_t l = 0; l < plans.size(); ++l) {
+        for (std::size_t e = 0; e < elements_.size(); ++e) {
+          elements_[e].set_mass(l, plans[l]->hub.elements.data()[e]);
+        }
       }
     }
-    set_hub_matrices();
     for_each_group([&plans](auto& group) {
-      for (std::size_t l = 0; l < kLanes<S>; ++l) {
-        const Plan& plan = *plans[l / kLimbs<H, S>];
-        group.limb.set_masses(l, limb_of(group, l, plan), plan);
-      }
+      LanesOf lanes(group.limbs, plans);
+      group.limb.set_masses(lanes.limbs, lanes.plans);
     });
   }
 
@@ -61,8 +58,7 @@ class Vehicle {
       set_lane(held_at_center_, l, *held[l]->force_at_center_L.data());
       acts_at_center_ = acts_at_center_ || held[l]->acts_at_center;
       for (std::size_t k = 0; k < rotors_.size(); ++k) {
-        set_lane(rotors_[k].motor_torque, l,
-                 held[l]->motor_torque.data()[plans[l]->hub.rotors.data()[k]]);
+        rotors_[k].hold(l, held[l]->motor_torque.data()[plans[l]->hub.rotors.data()[k]]);
       }
     }
     turns_alone_ = is_rigid_ && !has_elements_ && !acts_at_center_;
@@ -110,6 +106,17 @@ class Vehicle {
     bool is_full;  // else the second lane repeats the first one's limb
     Of limb;
   };
+  /// Whose limbs are in which lane.
+  struct LanesOf {
+    LanesOf(const std::array<std::size_t, kLimbs<H, S>>& of, Plans plans_of_hub) {
+      for (std::size_t l = 0; l < kLanes<S>; ++l) {
+        plans[l] = plans_of_hub[l / kLimbs<H, S>];
+        limbs[l] = &plans[l]->limbs.data()[of[l % kLimbs<H, S>]];
+      }
+    }
+    std::array<const LimbPlan*, kLanes<S>> limbs;
+    std::array<const Plan*, kLanes<S>> plans;
+  };
   /// The hub equation's matrix, factored: Schur complement of M.
   struct HubFactors {
     HubFactors() = default;
@@ -153,7 +160,6 @@ class Vehicle {
 
   void set_hub(std::size_t l, const Plan& plan) {
     set_lane(mu_, l, plan.mu);
-    mass_.set(l, *plan.tree.links.data());
     for (std::size_t e = 0; e < elements_.size(); ++e) {
       elements_[e].set(l, plan.hub.elements.data()[e]);
     }
@@ -173,16 +179,11 @@ class Vehicle {
   }
 
   void add_group(const std::array<std::size_t, kLimbs<H, S>>& limbs, bool is_full, Plans plans) {
-    std::array<const LimbPlan*, kLanes<S>> lanes;
-    std::array<const Plan*, kLanes<S>> of;
-    for (std::size_t l = 0; l < kLanes<S>; ++l) {
-      of[l] = plans[l / kLimbs<H, S>];
-      lanes[l] = &of[l]->limbs.data()[limbs[l % kLimbs<H, S>]];
-    }
-    if (lanes[0]->is_point) {
-      points_.push_back({limbs, is_full, Point<H, S>(lanes, of, layout_)});
+    const LanesOf lanes(limbs, plans);
+    if (lanes.limbs[0]->is_point) {
+      points_.push_back({limbs, is_full, Point<H, S>(lanes.limbs, lanes.plans, layout_)});
     } else {
-      limbs_.push_back({limbs, is_full, Limb<H, S>(lanes, of, layout_)});
+      limbs_.push_back({limbs, is_full, Limb<H, S>(lanes.limbs, lanes.plans, layout_)});
     }
   }
 
@@ -257,8 +258,7 @@ class Vehicle {
     chart.put_rate(vector(state, layout_.omega), rate, Layout::kAttitude);
     put(omega_dot, rate, layout_.omega);
     for (const RotorOn<H, H>& rotor : rotors_) {
-      put_entry(rate, rotor.speed[0],
-                rotor.motor_torque / rotor.spin_inertia - dot(rotor.axis_L, omega_dot));
+      put_entry(rate, rotor.speed[0], rotor.spin_up - dot(rotor.axis_L, omega_dot));
     }
   }
 
@@ -269,6 +269,13 @@ class Vehicle {
       spin += (rotor.spin_inertia * (speed + dot(rotor.axis_L, omega))) * rotor.axis_L;
     }
     return spin;
+  }
+
+  void set_hub_mass(Plans plans) {
+    typename LinkMass<H>::Constants of{};
+    for (std::size_t l = 0; l < plans.size(); ++l) of[l] = plans[l]->tree.links.data();
+    mass_.set(of);
+    set_hub_matrices();
   }
 
   /// What of the hub's own law does not change with its motion.
