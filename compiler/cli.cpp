@@ -7,10 +7,11 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <cstdlib>
+#include <exception>
+#include <new>
 
-#include "compiler/diag/diagnostics.h"
+#include "compiler/output.h"
 
 namespace twincraft {
 namespace {
@@ -45,7 +46,51 @@ Fault unexpected(const CLI::App& app, const std::vector<std::string>& extras) {
 Fault fault_of(const CLI::App& app, const CLI::ParseError& error) {
   const std::vector<std::string> extras = app.remaining();
   if (!extras.empty()) return unexpected(app, extras);
-  return {printable(error.what()), fmt::format("`{} --help` shows the flags", app.get_name())};
+  const std::string text = error.what();
+  const auto ends_at = [&text](std::string_view part) { return text.find(part); };
+  if (const std::size_t end = ends_at(": At Most 1 required"); end != std::string::npos)
+    return {fmt::format("`{}` is given more than once", printable(text.substr(0, end))),
+            "give it once; only `--set` and `-W` can be repeated"};
+  const std::string prefix = "Could not convert: ";
+  if (const std::size_t end = ends_at(" = "); text.starts_with(prefix) && end != std::string::npos)
+    return {fmt::format("`{}` cannot be `{}`", text.substr(prefix.size(), end - prefix.size()),
+                        printable(text.substr(end + 3))),
+            "a whole number is expected"};
+  return {printable(text), fmt::format("`{} --help` shows the flags", app.get_name())};
+}
+
+/// Where memory runs out inside a destructor, such as nlohmann's of JSON values, nothing can be
+/// caught any more. Allocates nothing.
+[[noreturn]] void end_without_catch() {
+  const std::exception_ptr fault = std::current_exception();
+  std::string_view text = "internal error, please report it\n";
+  try {
+    if (fault) std::rethrow_exception(fault);
+  } catch (const std::bad_alloc&) {
+    text = "out of memory\n";
+  } catch (...) {
+    text = "internal error: an exception nobody expected, please report it\n";
+  }
+  write_standard_error(text);
+  ::_exit(kExitFailure);
+}
+
+constexpr std::string_view kNo = "no-";
+
+std::optional<Code> code_of(std::string_view name) {
+  for (const Code code : all_codes())
+    if (code_name(code) == name) return code;
+  return std::nullopt;
+}
+
+/// @return empty, or what is wrong with a word after `-W`
+std::string check_warning_word(std::string& word) {
+  if (word == "error" || (word.starts_with(kNo) && code_of(word.substr(kNo.size())))) return {};
+  std::vector<std::string> words{"error"};
+  for (const Code code : all_codes()) words.push_back(fmt::format("{}{}", kNo, code_name(code)));
+  const std::string near = nearest(word, words);
+  return fmt::format("`-W{}` is neither `-Werror` nor `-Wno-CODE` of a known code{}", word,
+                     near.empty() ? "" : fmt::format("; did you mean `-W{}`?", near));
 }
 
 }  // namespace
@@ -58,7 +103,8 @@ std::optional<int> parse_command_line(CLI::App& app, int argc, const char* const
     return app.exit(wish);
   } catch (const CLI::ParseError& error) {
     const Fault fault = fault_of(app, error);
-    fmt::print(stderr, "{}: {}\n  hint: {}\n", app.get_name(), fault.text, fault.hint);
+    write_standard_error(
+        fmt::format("{}: {}\n  hint: {}\n", app.get_name(), fault.text, fault.hint));
     return kExitUsage;
   }
 }
@@ -72,6 +118,40 @@ CLI::Validator one_of(std::vector<std::string> words) {
                        near.empty() ? "" : fmt::format("; did you mean `{}`?", near));
   };
   return CLI::Validator(check, "");
+}
+
+void add_warning_flags(CLI::App& app, std::vector<std::string>& words) {
+  app.add_option("-W", words, "-Werror: warnings are errors; -Wno-SC3402: leave those out")
+      ->type_name("error|no-CODE")
+      ->allow_extra_args(false)
+      ->check(CLI::Validator(check_warning_word, ""));
+}
+
+void judge_warnings(const std::vector<std::string>& words, Diagnostics& diagnostics) {
+  std::vector<Code> silent;
+  bool promote = false;
+  for (const std::string& word : words) {
+    if (word == "error") promote = true;
+    if (word.starts_with(kNo)) silent.push_back(code_of(word.substr(kNo.size())).value());
+  }
+  diagnostics.silence(silent);
+  if (promote) diagnostics.promote_warnings();
+}
+
+int run_program(std::string_view program, const std::function<int()>& body) {
+  survive_failed_writes();
+  std::set_terminate(end_without_catch);
+  try {
+    return body();
+  } catch (const std::bad_alloc&) {
+    write_standard_error(fmt::format("{}: out of memory\n", program));
+  } catch (const std::exception& error) {
+    write_standard_error(
+        fmt::format("{}: internal error: {}\n"
+                    "  this is a fault of {}, not of the spec; please report it with the spec\n",
+                    program, printable(error.what()), program));
+  }
+  return kExitFailure;
 }
 
 bool wants_colour(int file_descriptor) {

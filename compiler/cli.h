@@ -1,11 +1,14 @@
-// What a command line of ours is beyond CLI11: usage errors with the near miss, the exit codes, and
-// when to use colour.  Tested by tests/agreement/scsim_test.cpp.
+// What a command line of ours is beyond CLI11: usage errors with the near miss, the exit codes,
+// what becomes of warnings, and when to use colour.  Tested by tests/agreement/scsim_test.cpp.
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "compiler/diag/diagnostics.h"
 
 namespace twincraft {
 
@@ -23,6 +26,15 @@ std::optional<int> parse_command_line(CLI::App& app, int argc, const char* const
 
 /// Accepts exactly these words; for any other it names the nearest.
 CLI::Validator one_of(std::vector<std::string> words);
+
+/// The flag `-W`, into `words`: `-Werror`, `-Wno-SC3402`.
+void add_warning_flags(CLI::App& app, std::vector<std::string>& words);
+/// Does to `diagnostics` what the words ask for.
+void judge_warnings(const std::vector<std::string>& words, Diagnostics& diagnostics);
+
+/// Runs a program's body, and says on standard error what ended it early.
+/// @return the exit code: that of `body`, or kExitFailure after an exception
+int run_program(std::string_view program, const std::function<int()>& body);
 
 /// `file` is a terminal that wants colour: NO_COLOR is respected, and TERM=dumb.
 bool wants_colour(int file_descriptor);

@@ -5,9 +5,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <csignal>
-#include <cstdlib>
-#include <exception>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -32,6 +29,7 @@ struct Options {
   std::string emit = "mjcf,bsm";
   std::string diagnostics = "text";
   std::size_t max_errors = PrintOptions{}.max_errors;
+  std::vector<std::string> warnings;  // what stands after -W
   bool check = false;
   std::string explain;
   bool schema = false;
@@ -40,8 +38,8 @@ struct Options {
 };
 
 void complain(const std::string& text, const std::string& hint = {}) {
-  fmt::print(stderr, "sccompile: {}\n", text);
-  if (!hint.empty()) fmt::print(stderr, "  hint: {}\n", hint);
+  write_standard_error(fmt::format("sccompile: {}\n", text));
+  if (!hint.empty()) write_standard_error(fmt::format("  hint: {}\n", hint));
 }
 
 int usage(const std::string& text, const std::string& hint) {
@@ -69,7 +67,9 @@ void describe(CLI::App& app, Options& options) {
   app.add_option("--diagnostics", options.diagnostics, "text (default), json or sarif")
       ->type_name("FORMAT");
   app.add_option("--max-errors", options.max_errors, "show this many errors (default 50)")
-      ->type_name("N");
+      ->type_name("N")
+      ->check(CLI::Range(1, 1'000'000).description(""));
+  add_warning_flags(app, options.warnings);
   app.add_option("--explain", options.explain, "what a diagnostic code means, and the cure")
       ->type_name("CODE");
   app.add_flag("--schema", options.schema, "print the JSON Schema of the spec language");
@@ -101,6 +101,9 @@ std::optional<int> refuse_bad_values(Options& options) {
   }
   if (to_stdout && options.diagnostics != "text") {
     return usage("`-o -` and `--diagnostics` both want standard output", "write to a folder");
+  }
+  if (options.folder.empty()) {
+    return usage("`-o` names no folder", "write `-o .` for this one, `-o -` for standard output");
   }
   const bool needs_spec = !options.schema && !options.reference && options.explain.empty();
   if (needs_spec && options.request.file.empty()) {
@@ -136,7 +139,7 @@ int explain(const std::string& word) {
 int report(const Diagnostics& diagnostics, const Options& options) {
   if (options.diagnostics == "json") return print(to_json(diagnostics));
   if (options.diagnostics == "sarif") return print(to_sarif(diagnostics));
-  fmt::print(stderr, "{}", to_text(diagnostics, {wants_colour(STDERR_FILENO), options.max_errors}));
+  write_standard_error(to_text(diagnostics, {wants_colour(STDERR_FILENO), options.max_errors}));
   return kExitDone;
 }
 
@@ -173,7 +176,7 @@ int check(const Bundle& bundle, const Options& options) {
   if (options.diagnostics == "text") {
     if (const int code = print(to_text(proof)); code != kExitDone) return code;
   } else {
-    fmt::print(stderr, "{}", to_text(proof));  // standard output is for one document
+    write_standard_error(to_text(proof));  // standard output is for one document
   }
   return proof.pass() ? kExitDone : kExitFindings;
 }
@@ -197,9 +200,10 @@ int run(const Options& options) {
     complain(result.io_error);
     return kExitInputOutput;
   }
+  judge_warnings(options.warnings, diagnostics);
   if (const int code = report(diagnostics, options); code != kExitDone) return code;
   if (is_bad_override(diagnostics)) return kExitUsage;
-  if (!result.bundle) return kExitFindings;
+  if (!result.bundle || diagnostics.has_errors()) return kExitFindings;
   return options.check ? check(*result.bundle, options) : write_results(*result.bundle, options);
 }
 
@@ -216,14 +220,5 @@ int parse_and_run(int argc, char** argv) {
 }  // namespace twincraft
 
 int main(int argc, char** argv) {
-  std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is an error of write(), with a message
-  try {
-    return twincraft::parse_and_run(argc, argv);
-  } catch (const std::exception& error) {
-    fmt::print(stderr,
-               "sccompile: internal error: {}\n"
-               "  this is a fault of sccompile, not of the spec; please report it with the spec\n",
-               error.what());
-    return twincraft::kExitFailure;
-  }
+  return twincraft::run_program("sccompile", [=] { return twincraft::parse_and_run(argc, argv); });
 }

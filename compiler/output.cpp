@@ -8,6 +8,7 @@
 
 #include <cctype>
 #include <cerrno>
+#include <csignal>
 #include <filesystem>
 #include <system_error>
 #include <utility>
@@ -117,9 +118,24 @@ std::string write_files(const std::vector<OutputFile>& files) {
   return {};
 }
 
+std::string try_files(const std::vector<std::string>& paths) {
+  for (const std::string& path : paths) {
+    const PendingFile attempt({path, {}});  // removed again, as it is not published
+    if (!attempt.error().empty()) return attempt.error();
+  }
+  return {};
+}
+
 std::string write_standard_output(std::string_view text) {
   const int error = write_all(STDOUT_FILENO, text);
   return error == 0 ? std::string() : fault(std::string("standard output"), error);
+}
+
+void write_standard_error(std::string_view text) { write_all(STDERR_FILENO, text); }
+
+void survive_failed_writes() {
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
 }
 
 }  // namespace twincraft

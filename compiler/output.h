@@ -19,7 +19,18 @@ struct OutputFile {
 /// @return empty, or what went wrong: "cannot write `out/a.xml`: no space left on device"
 std::string write_files(const std::vector<OutputFile>& files);
 
+/// Whether files of these names could be written, tried now because a run may take hours; folders
+/// that do not exist are made. @return as write_files
+std::string try_files(const std::vector<std::string>& paths);
+
 /// @return empty, or what went wrong (a closed pipe included, when SIGPIPE is ignored)
 std::string write_standard_output(std::string_view text);
+
+/// As much of it as the system takes: there is nobody left to tell of a failure.
+void write_standard_error(std::string_view text);
+
+/// From now on a closed pipe and a file beyond the size limit are errors of write(), with a
+/// message, and no longer the end of the process.
+void survive_failed_writes();
 
 }  // namespace twincraft

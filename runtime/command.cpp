@@ -54,6 +54,7 @@ void describe_talk(CLI::App& app, CommonOptions& options) {
   app.add_option("--diagnostics", options.diagnostics, "text (default) or json")
       ->type_name("FORMAT")
       ->check(one_of({"text", "json"}));
+  add_warning_flags(app, options.warnings);
 }
 
 void translate_conveniences(CommonOptions& options) {
@@ -65,7 +66,7 @@ void translate_conveniences(CommonOptions& options) {
   set("simulation.duration", options.duration);
 }
 
-void complain(std::string_view text) { fmt::print(stderr, "scsim: {}\n", text); }
+void complain(std::string_view text) { write_standard_error(fmt::format("scsim: {}\n", text)); }
 
 int print(std::string_view text) {
   const std::string error = write_standard_output(text);
@@ -78,7 +79,7 @@ int print_diagnostics(const Diagnostics& diagnostics, const CommonOptions& optio
   if (options.diagnostics == "json") return print(to_json(diagnostics));
   PrintOptions look;
   look.colour = wants_colour(STDERR_FILENO);
-  fmt::print(stderr, "{}", to_text(diagnostics, look));
+  write_standard_error(to_text(diagnostics, look));
   return kExitDone;
 }
 
@@ -102,8 +103,9 @@ int compile_spec(const CommonOptions& options, Sources& sources, CompileResult& 
     complain(result.io_error);
     return kExitInputOutput;
   }
+  judge_warnings(options.warnings, diagnostics);
   if (const int code = print_diagnostics(diagnostics, options); code != kExitDone) return code;
-  return result.bundle ? kExitDone : kExitFindings;
+  return result.bundle && !diagnostics.has_errors() ? kExitDone : kExitFindings;
 }
 
 int write_report(const Report& report, const CommonOptions& options, Page page) {

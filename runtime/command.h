@@ -4,6 +4,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "compiler/cli.h"
 #include "compiler/diag/diagnostics.h"
@@ -21,6 +22,7 @@ struct CommonOptions {
   bool quiet = false;
   std::string progress = "auto";
   std::string diagnostics = "text";
+  std::vector<std::string> warnings;  // what stands after -W
 };
 
 /// @param files  what is written into the folder

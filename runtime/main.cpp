@@ -4,8 +4,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <csignal>
-#include <exception>
 #include <filesystem>
 
 #include "compiler/output.h"
@@ -68,6 +66,16 @@ RunOptions run_options(const Options& options, ProgressBar& bar) {
 std::filesystem::path folder_of(std::size_t index, const Options& options) {
   const std::filesystem::path folder(options.folder);
   return index == 0 ? folder : folder / fmt::format("{:04}", index);
+}
+
+/// What a member and, beside the first one, the report will be called; nothing without -o.
+std::vector<std::string> files_of(std::size_t index, const Options& options) {
+  std::vector<std::string> files;
+  if (options.folder.empty()) return files;
+  const std::filesystem::path folder = folder_of(index, options);
+  for (const char* name : {"report.json", "report.html", "bsm.csv", "mujoco.csv"})
+    files.push_back((folder / name).string());
+  return files;
 }
 
 /// @return empty, or what went wrong
@@ -177,6 +185,11 @@ int compile_and_simulate(const Options& options) {
   Sources sources;
   CompileResult result;
   if (const int code = compile_spec(options, sources, result); code != kExitDone) return code;
+  // Now rather than after a run of hours.
+  if (const std::string error = try_files(files_of(0, options)); !error.empty()) {
+    complain(error);
+    return kExitInputOutput;
+  }
   return simulate(std::move(result), options);
 }
 
@@ -196,11 +209,5 @@ int parse_and_run(int argc, char** argv) {
 }  // namespace twincraft
 
 int main(int argc, char** argv) {
-  std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is an error of write(), with a message
-  try {
-    return twincraft::parse_and_run(argc, argv);
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "scsim: {}\n", error.what());
-    return twincraft::kExitFailure;
-  }
+  return twincraft::run_program("scsim", [=] { return twincraft::parse_and_run(argc, argv); });
 }

@@ -12,6 +12,8 @@
 namespace twincraft {
 namespace {
 
+constexpr double kMostSteps = 1e12;
+constexpr double kMostSamples = 1e7;
 constexpr double kSamples = 200.0;               // of a run without `record`
 constexpr double kWholeStepsTolerance = 1.0e-9;  // relative: durations are written in decimals
 
@@ -127,6 +129,14 @@ void check_step(const SimulationSpec& simulation, double step, Diagnostics& diag
         .with_note(simulation.span_of("duration"), "`duration` is written here");
     return;
   }
+  if (steps > kMostSteps) {
+    diagnostics.error(
+        Code::kTooManySteps, span,
+        fmt::format("a step of {} s makes {:.3g} steps of the duration of {} s, more "
+                    "than {:g}",
+                    shortest(step), steps, shortest(simulation.duration), kMostSteps));
+    return;
+  }
   if (std::abs(steps - std::round(steps)) <= kWholeStepsTolerance * steps) return;
   const std::string message =
       fmt::format("a step of {} s does not divide the duration of {} s: the last step is shortened",
@@ -137,6 +147,18 @@ void check_step(const SimulationSpec& simulation, double step, Diagnostics& diag
   } else {
     diagnostics.warning(Code::kStepDoesNotDivide, span, message);
   }
+}
+
+/// A sample holds the whole state of both engines.
+void check_record(const SimulationSpec& simulation, double step, Diagnostics& diagnostics) {
+  if (!simulation.record) return;
+  const double samples = simulation.duration / std::max(*simulation.record, step);
+  if (samples <= kMostSamples) return;
+  diagnostics
+      .error(Code::kTooManySteps, simulation.span_of("record"),
+             fmt::format("{:.3g} samples would be recorded, more than {:g}", samples, kMostSamples))
+      .with_hint(
+          fmt::format("raise `record` to {:.3g} s or more", simulation.duration / kMostSamples));
 }
 
 Tolerance parts(const ToleranceSpec& spec) {
@@ -231,7 +253,9 @@ void check(const SimulationSpec& simulation, const std::vector<Oscillator>& osci
   check_tolerances(simulation, diagnostics);
   const StepRule* rule = std::get_if<StepRule>(&simulation.step);
   if (rule != nullptr && !check_rule(*rule, oscillators, diagnostics)) return;
-  check_step(simulation, step_of(simulation, oscillators), diagnostics);
+  const double step = step_of(simulation, oscillators);
+  check_step(simulation, step, diagnostics);
+  check_record(simulation, step, diagnostics);
 }
 
 SimulationPlan lower(const SimulationSpec& simulation, const std::vector<Oscillator>& oscillators) {

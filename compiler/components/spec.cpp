@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "compiler/ir/number.h"
+
 namespace twincraft {
 namespace {
 
@@ -90,7 +92,10 @@ const Table<Spec>& spec_table() {
       "One spacecraft, its surroundings, and the run that compares both engines on it. A plain "
       "number is in SI units; a text such as `12 deg` carries its unit.",
       {
-          required("format", &Spec::format, text(), "The language's version: `spacecraft/1`."),
+          required(
+              "format", &Spec::format, text(),
+              "The language's version: `spacecraft/1`. By convention the first key; the keys of a "
+              "map have no order, so another place is no fault."),
           optional("extends", &Spec::extends, maybe(text()), kExtendsDoc),
           optional("drop", &Spec::drop, maybe(list_of(name())),
                    "Names of components of the extended spec to leave out. They are removed before "
@@ -132,6 +137,22 @@ const Table<Spec>& spec_table() {
   return table;
 }
 
+namespace {
+
+/// Of a thruster or a load; the half-open run is [0, duration).
+template <class Component>
+void check_acts(const Component& component, std::string_view kind, double duration,
+                Diagnostics& diagnostics) {
+  if (!component.during) return;
+  for (const Schedule::Interval& interval : *component.during)
+    if (interval.start < duration && interval.end > 0.0) return;
+  diagnostics.warning(Code::kNeverActs, component.span_of("during"),
+                      fmt::format("{} `{}` does not act in the run, which is from 0 to {} s", kind,
+                                  component.name, shortest(duration)));
+}
+
+}  // namespace
+
 bool check_format(const Node& root, Diagnostics& diagnostics) {
   const Node* format = root.find("format");
   if (format == nullptr || !format->is_scalar() || format->scalar == kFormat) return true;
@@ -160,6 +181,10 @@ void check(const Spec& spec, Diagnostics& diagnostics) {
   if (spec.stored)
     check(*spec.stored, names_stored(spec), spec.environment, spec.simulation.duration,
           diagnostics);
+  for (const ThrusterSpec& thruster : spec.thrusters)
+    check_acts(thruster, "thruster", spec.simulation.duration, diagnostics);
+  for (const LoadSpec& load : spec.loads)
+    check_acts(load, "load", spec.simulation.duration, diagnostics);
   check_point_mass(spec, diagnostics);
   if (spec.study) members_of(*spec.study, diagnostics);
 }

@@ -29,10 +29,7 @@ constexpr std::array kRegistry{
 
 const CodeEntry& entry_of(Code code) { return kRegistry.at(static_cast<std::size_t>(code)); }
 
-Diagnostic& add(std::vector<Diagnostic>& all, Severity severity, Code code, Span span,
-                std::string message) {
-  return all.emplace_back(Diagnostic{severity, code, span, std::move(message), {}, {}});
-}
+constexpr std::size_t kKept = 10'000;
 
 /// Unicode's means to reorder or hide text, which would let a message show other text than it has.
 bool misleads_reader(char32_t code) {
@@ -82,21 +79,42 @@ const std::vector<Code>& all_codes() {
   return codes;
 }
 
+Diagnostic& Diagnostics::add(Diagnostic diagnostic) {
+  if (diagnostic.severity == Severity::kError && all_.size() >= kKept) {
+    ++dropped_;
+    return last_dropped_ = std::move(diagnostic);
+  }
+  return all_.emplace_back(std::move(diagnostic));
+}
+
+void Diagnostics::take(Diagnostic diagnostic) { add(std::move(diagnostic)); }
+
 Diagnostic& Diagnostics::error(Code code, Span span, std::string message) {
-  return add(all_, Severity::kError, code, span, std::move(message));
+  return add({Severity::kError, code, span, std::move(message), {}, {}});
 }
 
 Diagnostic& Diagnostics::warning(Code code, Span span, std::string message) {
-  return add(all_, Severity::kWarning, code, span, std::move(message));
+  return add({Severity::kWarning, code, span, std::move(message), {}, {}});
 }
 
 Diagnostic& Diagnostics::note(Code code, Span span, std::string message) {
-  return add(all_, Severity::kNote, code, span, std::move(message));
+  return add({Severity::kNote, code, span, std::move(message), {}, {}});
+}
+
+void Diagnostics::silence(const std::vector<Code>& codes) {
+  std::erase_if(all_, [&codes](const Diagnostic& fault) {
+    return fault.severity != Severity::kError && std::ranges::count(codes, fault.code) > 0;
+  });
+}
+
+void Diagnostics::promote_warnings() {
+  for (Diagnostic& fault : all_)
+    if (fault.severity == Severity::kWarning) fault.severity = Severity::kError;
 }
 
 std::size_t Diagnostics::error_count() const {
-  return static_cast<std::size_t>(
-      std::ranges::count(all_, Severity::kError, &Diagnostic::severity));
+  return dropped_ + static_cast<std::size_t>(
+                        std::ranges::count(all_, Severity::kError, &Diagnostic::severity));
 }
 
 std::vector<Diagnostic> Diagnostics::sorted() const {

@@ -64,21 +64,33 @@ struct Diagnostic {
 
 class Diagnostics {
  public:
-  /// Add a fault; the reference is valid until the next one is added.
+  /// Add a fault; the reference is valid until the next one is added. Of a file with more errors
+  /// than anybody reads the first 10 000 are kept and the others counted.
   Diagnostic& error(Code code, Span span, std::string message);
   Diagnostic& warning(Code code, Span span, std::string message);
   Diagnostic& note(Code code, Span span, std::string message);
   /// One that was made elsewhere.
-  void take(Diagnostic diagnostic) { all_.push_back(std::move(diagnostic)); }
+  void take(Diagnostic diagnostic);
+
+  /// What `-Wno-CODE` does: warnings and notes of these codes are forgotten. Errors stay.
+  void silence(const std::vector<Code>& codes);
+  /// What `-Werror` does: every warning becomes an error.
+  void promote_warnings();
 
   bool has_errors() const { return error_count() > 0; }
   std::size_t error_count() const;
+  /// Errors that were counted and not kept.
+  std::size_t dropped() const { return dropped_; }
   const std::vector<Diagnostic>& all() const { return all_; }
   /// By source in order of first mention, then line and column; exact repeats removed.
   std::vector<Diagnostic> sorted() const;
 
  private:
+  Diagnostic& add(Diagnostic diagnostic);
+
   std::vector<Diagnostic> all_;
+  std::size_t dropped_ = 0;
+  Diagnostic last_dropped_;
 };
 
 /// The entry of `candidates` nearest to `word` by edit distance, or empty when none is near enough

@@ -141,13 +141,15 @@ std::string counted(std::size_t count, std::string_view word) {
 }
 
 /// `2 errors, 1 warning`; kinds that do not occur are left out.
-std::string summary(const std::vector<Diagnostic>& diagnostics) {
+std::string summary(const std::vector<Diagnostic>& diagnostics, std::size_t dropped) {
   std::string text;
   for (const Severity severity : {Severity::kError, Severity::kWarning, Severity::kNote}) {
-    const auto count = std::ranges::count(diagnostics, severity, &Diagnostic::severity);
+    auto count =
+        static_cast<std::size_t>(std::ranges::count(diagnostics, severity, &Diagnostic::severity));
+    if (severity == Severity::kError) count += dropped;
     if (count == 0) continue;
     text += text.empty() ? "" : ", ";
-    text += counted(static_cast<std::size_t>(count), severity_name(severity));
+    text += counted(count, severity_name(severity));
   }
   return text + "\n";
 }
@@ -165,10 +167,11 @@ std::string to_text(const Diagnostics& diagnostics, const PrintOptions& options)
     if (is_error && ++errors > options.max_errors) continue;
     text += block(diagnostic, style);
   }
+  errors += diagnostics.dropped();
   if (errors > options.max_errors) {
     text += counted(errors - options.max_errors, "further error") + " not shown\n";
   }
-  return text + summary(sorted);
+  return text + summary(sorted, diagnostics.dropped());
 }
 
 }  // namespace twincraft

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <stdexcept>
 
 namespace twincraft {
@@ -39,6 +40,24 @@ bool check_unknown_keys(const TableInfo& info, const Node& map, const std::strin
   return good;
 }
 
+/// The first sentence of `doc` as part of a longer one.
+std::string in_passing(const std::string& doc) {
+  std::string text = doc.substr(0, std::min(doc.find(". "), doc.find_last_of('.')));
+  if (!text.empty()) text[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(text[0])));
+  return text;
+}
+
+/// What to write: the keys of a map, the meaning of a text, the form of anything else.
+std::string how_to_add(const FieldInfo& field) {
+  if (field.tables.size() == 1 && field.kind == field.tables.front()->name) {
+    std::vector<std::string> keys;
+    for (const FieldInfo& part : field.tables.front()->fields)
+      if (part.required) keys.push_back(part.key);
+    if (!keys.empty()) return fmt::format("a map with {}", words_text(keys, "and"));
+  }
+  return field.kind == "text" || field.kind == "name" ? in_passing(field.doc) : field.kind;
+}
+
 bool check_missing_keys(const TableInfo& info, const Node& map, const std::string& label,
                         Diagnostics& diagnostics) {
   bool good = true;
@@ -47,7 +66,7 @@ bool check_missing_keys(const TableInfo& info, const Node& map, const std::strin
     good = false;
     diagnostics
         .error(Code::kMissingKey, map.span, fmt::format("`{}` is missing in {}", field.key, label))
-        .with_hint(fmt::format("add `{}`: {}", field.key, field.kind));
+        .with_hint(fmt::format("add `{}`: {}", field.key, how_to_add(field)));
   }
   return good;
 }

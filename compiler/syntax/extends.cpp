@@ -88,7 +88,7 @@ class Resolver {
     const fs::path folder = fs::canonical(folder_of(shown), fault);
     const fs::path actual = fault ? fs::path() : fs::canonical(shown, fault);
     if (fault) {
-      unreadable(*root.find("extends"), fault.message());
+      unreadable(*root.find("extends"), shown, fault);
       return false;
     }
     tree_ = tree_of(folder);
@@ -139,7 +139,7 @@ class Resolver {
     }
     const fs::path actual = fault ? fs::path() : fs::canonical(shown, fault);
     if (fault) {
-      unreadable(target, fault.message());
+      unreadable(target, shown, fault);
       return std::nullopt;
     }
     if (!is_inside(actual, tree_)) {
@@ -241,12 +241,19 @@ class Resolver {
             kTreeMarker));
   }
 
-  void unreadable(const Node& target, std::string reason) {
+  void unreadable(const Node& target, const fs::path& shown, std::error_code fault) {
+    std::string reason = fault.message();
     if (!reason.empty() && reason[0] >= 'A' && reason[0] <= 'Z') {
       reason[0] = static_cast<char>(reason[0] + 32);
     }
-    diagnostics_.error(Code::kExtendsUnreadable, target.span,
-                       fmt::format("cannot read {}: {}", in_backticks(target.scalar), reason));
+    Diagnostic& error =
+        diagnostics_.error(Code::kExtendsUnreadable, target.span,
+                           fmt::format("cannot read {}: {}", in_backticks(target.scalar), reason));
+    // What lies in a folder outside the tree is nobody's business.
+    const fs::path folder = fs::canonical(folder_of(shown), fault);
+    if (fault || !is_inside(folder, tree_)) return;
+    const std::string near = near_file(shown.string());
+    if (!near.empty()) error.with_hint(fmt::format("did you mean {}?", in_backticks(near)));
   }
 
   Sources& sources_;

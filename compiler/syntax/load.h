@@ -14,8 +14,11 @@
 
 namespace twincraft {
 
-inline constexpr std::size_t kMaximumFileBytes = 16u << 20;  // a spec is text a person wrote
-inline constexpr std::size_t kMaximumNodes = 1'000'000;
+// A spec is text a person wrote. These keep every answer below a second and 100 MB, however
+// hostile.
+inline constexpr std::size_t kMaximumFileBytes = 4u << 20;
+inline constexpr std::size_t kMaximumNodes = 200'000;
+inline constexpr std::size_t kMaximumIndicators = 1'000'000;
 inline constexpr int kMaximumDepth = 64;
 
 /// The bytes of a file, or of standard input for `-`; an I/O fault comes back as text. Never blocks
@@ -25,6 +28,10 @@ struct FileText {
   std::string error;  // empty: read
 };
 FileText read_file(const std::string& path, std::string_view shown = {});
+
+/// The name of the file that `path`, which does not exist, probably meant; empty when its folder has
+/// none of a similar name.
+std::string near_file(const std::string& path);
 
 /// Parse one document whose root is a map. Nothing on error; all faults are in `diagnostics`.
 std::optional<Node> parse(const Source& source, Diagnostics& diagnostics);

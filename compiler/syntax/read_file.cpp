@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <filesystem>
 #include <system_error>
 
 #include "compiler/syntax/load.h"
@@ -61,12 +62,33 @@ std::string unreadable_kind(const struct stat& status, bool standard_input) {
 
 }  // namespace
 
+std::string near_file(const std::string& path) {
+  constexpr std::size_t kLooked = 1000;
+  const std::filesystem::path missing(path);
+  const std::filesystem::path folder = missing.has_parent_path() ? missing.parent_path() : ".";
+  std::vector<std::string> names;
+  std::error_code fault;
+  for (std::filesystem::directory_iterator entry(folder, fault), end;
+       !fault && entry != end && names.size() < kLooked; entry.increment(fault)) {
+    names.push_back(entry->path().filename().string());
+  }
+  std::sort(names.begin(), names.end());
+  return nearest(missing.filename().string(), names);
+}
+
 FileText read_file(const std::string& path, std::string_view shown) {
   const std::string what =
       path == "-" ? "standard input" : in_backticks(shown.empty() ? path : shown);
   // Without O_NONBLOCK in File, opening a FIFO that nobody writes to would wait for ever.
   const File file(path);
-  if (file.descriptor() < 0) return failure(what, system_reason());
+  if (file.descriptor() < 0) {
+    const bool missing = errno == ENOENT;
+    const std::string reason = system_reason();
+    const std::string near = missing ? near_file(path) : std::string();
+    return failure(what, near.empty()
+                             ? reason
+                             : fmt::format("{}; did you mean {}?", reason, in_backticks(near)));
+  }
   struct stat status {};
   if (::fstat(file.descriptor(), &status) != 0) return failure(what, system_reason());
   if (const std::string kind = unreadable_kind(status, path == "-"); !kind.empty()) {
@@ -76,6 +98,7 @@ FileText read_file(const std::string& path, std::string_view shown) {
   std::array<char, 65536> buffer;
   while (true) {
     const ssize_t count = ::read(file.descriptor(), buffer.data(), buffer.size());
+    if (count < 0 && errno == EINTR) continue;
     if (count < 0) return failure(what, system_reason());
     if (count == 0) return result;
     result.text.append(buffer.data(), static_cast<std::size_t>(count));

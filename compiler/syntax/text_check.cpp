@@ -76,9 +76,9 @@ bool check_structure(const Source& source, Diagnostics& diagnostics) {
   for (std::size_t at = 0; at < text.size(); ++at) {
     const char c = text[at];
     if (!is_indicator(c)) continue;
-    if (++indicators > kMaximumNodes) {
+    if (++indicators > kMaximumIndicators) {
       diagnostics.error(Code::kTooLarge, source.span(at, 1),
-                        fmt::format("more than {} punctuation characters", kMaximumNodes));
+                        fmt::format("more than {} punctuation characters", kMaximumIndicators));
       return false;
     }
     if (c == '[' || c == '{') ++open;

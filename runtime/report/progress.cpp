@@ -45,24 +45,28 @@ void ProgressBar::show(std::string_view phase, double fraction) {
   }
   if (now - begin_ < kQuiet || now - last_drawn_ < kInterval) return;
   const bool simulates = phase == "bsm" || phase == "mujoco";
-  fmt::print(
-      terminal_, "{}{}", kEraseLine,
-      progress_line(phase, fraction, seconds(now - phase_begin_), simulates ? duration_ : 0.0));
-  std::fflush(terminal_);
+  write(fmt::format(
+      "{}{}", kEraseLine,
+      progress_line(phase, fraction, seconds(now - phase_begin_), simulates ? duration_ : 0.0)));
   last_drawn_ = now;
   drawn_ = true;
 }
 
 void ProgressBar::leave(std::string_view line) {
   clear();
-  fmt::print(terminal_, "{}\n", line);
+  write(fmt::format("{}\n", line));
 }
 
 void ProgressBar::clear() {
   if (!drawn_) return;
-  fmt::print(terminal_, "{}", kEraseLine);
-  std::fflush(terminal_);
+  write(kEraseLine);
   drawn_ = false;
+}
+
+/// A terminal that is gone must not end the run.
+void ProgressBar::write(std::string_view text) {
+  std::fwrite(text.data(), 1, text.size(), terminal_);
+  std::fflush(terminal_);
 }
 
 }  // namespace twincraft

@@ -31,6 +31,8 @@ class ProgressBar {
   void clear();
 
  private:
+  void write(std::string_view text);
+
   using Clock = std::chrono::steady_clock;
   std::FILE* terminal_;
   double duration_;

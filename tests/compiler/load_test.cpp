@@ -452,7 +452,7 @@ TEST_F(ReadFile, NeverReadsADevice) {
 TEST_F(ReadFile, RefusesALargeFileWithoutReadingIt) {
   std::ofstream(path("large.yaml")) << "a: 1\n";
   std::filesystem::resize_file(path("large.yaml"), std::uintmax_t{1} << 40);  // sparse
-  EXPECT_THAT(read_file(path("large.yaml")).error, HasSubstr("larger than 16 MiB"));
+  EXPECT_THAT(read_file(path("large.yaml")).error, HasSubstr("larger than 4 MiB"));
   std::filesystem::resize_file(path("large.yaml"), kMaximumFileBytes);
   EXPECT_EQ(read_file(path("large.yaml")).error, "");
 }
@@ -462,7 +462,7 @@ TEST_F(ReadFile, StopsReadingEndlessStandardInput) {
   const int endless = ::open("/dev/zero", O_RDONLY);
   ASSERT_GE(endless, 0);
   ASSERT_GE(::dup2(endless, STDIN_FILENO), 0);
-  EXPECT_THAT(read_file("-").error, HasSubstr("larger than 16 MiB"));
+  EXPECT_THAT(read_file("-").error, HasSubstr("larger than 4 MiB"));
   ::dup2(saved, STDIN_FILENO);
   ::close(endless);
   ::close(saved);

@@ -77,7 +77,7 @@ TEST(Malformed, NothingIsLeftOver) {
 /// Codes that no file of the corpus can produce, and why.
 const std::map<Code, std::string>& unreachable() {
   static const std::map<Code, std::string> reasons{
-      {Code::kTooLarge, "needs a million values or 16 MiB; load_test makes them"},
+      {Code::kTooLarge, "needs 200 000 values or 4 MiB; load_test makes them"},
   };
   return reasons;
 }
