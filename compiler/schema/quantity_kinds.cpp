@@ -30,6 +30,11 @@ Json quantity_schema(const std::string& si, Range range) {
   return schema;
 }
 
+Json with_description(Json schema, std::string_view text) {
+  schema["description"] = text;
+  return schema;
+}
+
 /// The keys of `{value: [..], unit: mm}`.
 const TableInfo& listing_table() {
   static const TableInfo table{.name = "vector",
@@ -196,12 +201,15 @@ std::optional<Listing> read_listing(const Node& node, SiUnit si, ReadContext& co
 }
 
 Json listing_schema(const Json& list, SiUnit si) {
-  const Json map = {
-      {"type", "object"},
-      {"properties",
-       {{"value", list}, {"unit", {{"type", "string"}, {"x-unit", std::string(si)}}}}},
-      {"required", Json::array({"value", "unit"})},
-      {"additionalProperties", false}};
+  const Json map = {{"type", "object"},
+                    {"properties",
+                     {{"value", with_description(list, "Plain numbers in `unit`.")},
+                      {"unit",
+                       {{"type", "string"},
+                        {"description", fmt::format("Of every number of `value`, such as {}.", si)},
+                        {"x-unit", std::string(si)}}}}},
+                    {"required", Json::array({"value", "unit"})},
+                    {"additionalProperties", false}};
   return any_of(list, map);
 }
 
