@@ -18,6 +18,15 @@ if(TWINCRAFT_SANITIZE)
   target_link_options(sc_options INTERFACE -fsanitize=address,undefined)
 endif()
 
+option(TWINCRAFT_FUZZ "Build the harnesses of tests/fuzz; needs Clang" OFF)
+if(TWINCRAFT_FUZZ)
+  # Clang knows other warnings than the compiler we hold ourselves to.
+  target_compile_options(sc_options INTERFACE -fsanitize=fuzzer-no-link,address,undefined
+                                              -fno-sanitize-recover=all -fno-omit-frame-pointer
+                                              -Wno-error)
+  target_link_options(sc_options INTERFACE -fsanitize=address,undefined)
+endif()
+
 # A build that was done before is not done again.
 find_program(CCACHE_PROGRAM ccache)
 if(CCACHE_PROGRAM AND NOT DEFINED CMAKE_CXX_COMPILER_LAUNCHER)

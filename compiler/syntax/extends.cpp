@@ -87,8 +87,9 @@ class Resolver {
     const fs::path shown(file);
     const fs::path folder = fs::canonical(folder_of(shown), fault);
     const fs::path actual = fault ? fs::path() : fs::canonical(shown, fault);
-    if (fault) {
-      unreadable(*root.find("extends"), shown, fault);
+    // A `drop` alone needs no place, and is a fault of its own.
+    if (const Node* target = root.find("extends"); fault && target != nullptr) {
+      unreadable(*target, shown, fault);
       return false;
     }
     tree_ = tree_of(folder);

@@ -115,5 +115,14 @@ TEST(JsonSchema, SaysHowItIsMadeAgain) {
   EXPECT_EQ(schema["additionalProperties"], false);
 }
 
+// Found by tools/fuzz: the place of a file that is none was asked for, of a key that is not there.
+TEST_F(Pipeline, RefusesADropWithoutExtendsInATextThatIsNoFile) {
+  CompileRequest request;
+  request.file = "no/such/folder/spec.yaml";
+  request.text = "format: spacecraft/1\nname: x\ndrop: [a]\nhub: {mass: 1, inertia: [1, 1, 1]}\n";
+  EXPECT_FALSE(compile(request, sources_, diagnostics_).bundle);
+  EXPECT_TRUE(diagnostics_.has_errors());
+}
+
 }  // namespace
 }  // namespace twincraft
