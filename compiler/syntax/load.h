@@ -29,8 +29,8 @@ struct FileText {
 };
 FileText read_file(const std::string& path, std::string_view shown = {});
 
-/// The name of the file that `path`, which does not exist, probably meant; empty when its folder has
-/// none of a similar name.
+/// The name of the file that `path`, which does not exist, probably meant; empty when its folder
+/// has none of a similar name.
 std::string near_file(const std::string& path);
 
 /// Parse one document whose root is a map. Nothing on error; all faults are in `diagnostics`.

@@ -218,7 +218,8 @@ TEST_F(Scsim, ExitsWithThreeForAMissingFileOrAnUnwritableFolder) {
   EXPECT_EQ(run({folder.path() + "/missing.yaml"}).exit_code, 3);
   const ProgramResult result = run({spinner, "--no-timing", "-o", spinner + "/out"});
   EXPECT_EQ(result.exit_code, 3);
-  EXPECT_THAT(result.out, HasSubstr("the engines agree"));  // the run itself is not lost
+  EXPECT_THAT(result.err, HasSubstr("not a directory"));
+  EXPECT_EQ(result.out, "");  // noticed before the run
 }
 
 TEST_F(Scsim, ExitsWithFourAndSaysWhereWhenNumbersBreakDown) {
