@@ -48,6 +48,9 @@ ForceModel::ForceModel(const Model& model, GravityLaw law,
   gravity_acts_ = law == GravityLaw::kBodyGradient ||
                   (law == GravityLaw::kBodyCom && !all_at_hub_origin) ||
                   (law != GravityLaw::kNone && frame == FieldFrame::kInertial);
+  needs_elements_ =
+      law != GravityLaw::kNone ||
+      std::any_of(loads_.begin(), loads_.end(), [](const Load& load) { return !load.r_FL_L; });
   acting_loads_.reserve(loads_.size());
   hold(0.0);
 }
@@ -64,6 +67,7 @@ void ForceModel::hold(double time) {
 }
 
 void ForceModel::set_shares(std::span<const double> shares) {
+  if (!needs_elements_) return;
   mass_ = 0.0;
   for (Element& e : elements_) {
     if (e.tank >= 0) {

@@ -100,7 +100,8 @@ class ForceModel {
   double mu_;
   GravityLaw law_;
   FieldFrame frame_;
-  bool gravity_acts_ = false;  // links feel more than the common fall
+  bool gravity_acts_ = false;    // links feel more than the common fall
+  bool needs_elements_ = false;  // gravity or a load at the centre of mass asks where they are
   std::vector<Element> elements_;
   double mass_ = 0.0;
   std::vector<Load> loads_;

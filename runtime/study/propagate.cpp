@@ -18,62 +18,65 @@
 namespace twincraft {
 namespace {
 
-/// What is integrated. The trial step of an adaptive method may be far too long and end in a state
-/// that no engine can evaluate: that is no failure, but a step to be rejected, as for any other
-/// non-finite rate.
 class EngineOde : public Ode {
  public:
-  EngineOde(Engine& engine, bool adaptive) : engine_(engine), adaptive_(adaptive) {}
+  explicit EngineOde(Engine& engine) : engine_(engine) {}
   int size() const override { return engine_.layout().size(); }
-  void derivative(double time, std::span<const double> state, std::span<double> rate) final {
-    if (!adaptive_) return evaluate(time, state, rate);
-    try {
-      evaluate(time, state, rate);
-    } catch (const NumericalFailure& failure) {
-      std::ranges::fill(rate, std::numeric_limits<double>::quiet_NaN());
-      excuse_ = failure.what();
-    }
+  void derivative(double time, std::span<const double> state, std::span<double> rate) override {
+    engine_.derivative(time, state, rate);
   }
   void finish_step(std::span<double> state) override { engine_.finish_step(state); }
 
-  /// The engine's own words, for when no step is short enough; empty before it failed.
-  const std::string& excuse() const { return excuse_; }
-  void forgive() { excuse_.clear(); }
-
- protected:
-  virtual void evaluate(double time, std::span<const double> state, std::span<double> rate) {
-    engine_.derivative(time, state, rate);
-  }
-  Engine& engine() { return engine_; }
-  const Engine& engine() const { return engine_; }
-
  private:
   Engine& engine_;
-  bool adaptive_;
-  std::string excuse_;
 };
 
 // The books are quadratures appended behind the state: nothing reads them back.
 constexpr std::size_t kBooks = 7;
 
-class BookkeepingOde : public EngineOde {
+class BookkeepingOde : public Ode {
  public:
-  BookkeepingOde(Engine& engine, bool adaptive)
-      : EngineOde(engine, adaptive), size_(static_cast<std::size_t>(engine.layout().size())) {}
+  explicit BookkeepingOde(Engine& engine)
+      : engine_(engine), size_(static_cast<std::size_t>(engine.layout().size())) {}
   int size() const override { return static_cast<int>(size_ + kBooks); }
-  void finish_step(std::span<double> state) override { engine().finish_step(state.first(size_)); }
-
- private:
-  void evaluate(double time, std::span<const double> state, std::span<double> rate) override {
-    engine().derivative(time, state.first(size_), rate.first(size_));
-    const ExternalRates external = engine().external_rates(time, state.first(size_));
+  void derivative(double time, std::span<const double> state, std::span<double> rate) override {
+    engine_.derivative(time, state.first(size_), rate.first(size_));
+    const ExternalRates external = engine_.external_rates(time, state.first(size_));
     const std::span<double> books = rate.last(kBooks);
     books[0] = external.power;
     Vector3d::Map(&books[1]) = external.force_N;
     Vector3d::Map(&books[4]) = external.torque_PntC_N;
   }
+  void finish_step(std::span<double> state) override { engine_.finish_step(state.first(size_)); }
 
+ private:
+  Engine& engine_;
   std::size_t size_;
+};
+
+/// The trial step of an adaptive method may be far too long and end in a state that no engine can
+/// evaluate: that is no failure, but a step to be rejected, as for any other non-finite rate.
+class ExcusingOde : public Ode {
+ public:
+  explicit ExcusingOde(Ode& ode) : ode_(ode) {}
+  int size() const override { return ode_.size(); }
+  void derivative(double time, std::span<const double> state, std::span<double> rate) override {
+    try {
+      ode_.derivative(time, state, rate);
+    } catch (const NumericalFailure& failure) {
+      std::ranges::fill(rate, std::numeric_limits<double>::quiet_NaN());
+      excuse_ = failure.what();
+    }
+  }
+  void finish_step(std::span<double> state) override { ode_.finish_step(state); }
+
+  /// The engine's own words, for when no step is short enough; empty before it failed.
+  const std::string& excuse() const { return excuse_; }
+  void forgive() { excuse_.clear(); }
+
+ private:
+  Ode& ode_;
+  std::string excuse_;
 };
 
 bool is_adaptive(const Model& model) { return tableau_of(model.simulation.method).adaptive; }
@@ -133,10 +136,10 @@ std::vector<double> events_of(const Model& model) {
 /// An engine at t = 0 and its way from landing to landing.
 class Run {
  public:
-  Run(Engine& engine, EngineOde& ode, const Model& model)
+  Run(Engine& engine, Ode& ode, const Model& model)
       : engine_(engine),
-        ode_(ode),
-        stepper_(tableau_of(model.simulation.method), ode),
+        excusing_(ode),
+        stepper_(tableau_of(model.simulation.method), is_adaptive(model) ? excusing_ : ode),
         names_(state_names(model, engine.layout())),
         control_(engine.layout(), model.simulation.tolerance, names_),
         landings_(model.simulation.step, model.simulation.duration, events_of(model)) {
@@ -169,12 +172,12 @@ class Run {
 
  private:
   void advance_adaptively(double to, const std::atomic<bool>* stop) {
-    ode_.forgive();
+    excusing_.forgive();
     try {
       time_ = control_.advance(stepper_, time_, to, counts_, stop);
     } catch (const NumericalFailure&) {
-      if (ode_.excuse().empty()) throw;
-      throw NumericalFailure(ode_.excuse() + ", however short the step");
+      if (excusing_.excuse().empty()) throw;
+      throw NumericalFailure(excusing_.excuse() + ", however short the step");
     }
   }
 
@@ -185,7 +188,7 @@ class Run {
   }
 
   Engine& engine_;
-  EngineOde& ode_;
+  ExcusingOde excusing_;
   RungeKutta stepper_;
   std::vector<std::string> names_;
   StepControl control_;
@@ -252,7 +255,7 @@ void record_run(Engine& engine, Run& run, const Model& model, const PropagateOpt
 }  // namespace
 
 Trajectory propagate(Engine& engine, const Model& model, const PropagateOptions& options) {
-  BookkeepingOde ode(engine, is_adaptive(model));
+  BookkeepingOde ode(engine);
   Run run(engine, ode, model);
   Trajectory trajectory;
   try {
@@ -266,7 +269,7 @@ Trajectory propagate(Engine& engine, const Model& model, const PropagateOptions&
 }
 
 StepCounts propagate_bare(Engine& engine, const Model& model) {
-  EngineOde ode(engine, is_adaptive(model));
+  EngineOde ode(engine);
   Run run(engine, ode, model);
   while (!run.done()) run.advance();
   return run.counts();
