@@ -112,8 +112,7 @@ int write_report(const Report& report, const CommonOptions& options, Page page) 
   if (options.folder.empty()) return kExitDone;
   const std::filesystem::path folder = options.folder;
   std::vector<OutputFile> files{{(folder / "report.json").string(), report_json(report)}};
-  if (page == Page::kYes)
-    files.push_back({(folder / "report.html").string(), report_html(report)});
+  if (page == Page::kYes) files.push_back({(folder / "report.html").string(), report_html(report)});
   const std::string error = write_files(files);
   if (error.empty()) return kExitDone;
   complain(error);
