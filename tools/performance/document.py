@@ -117,7 +117,7 @@ def document(results: Results) -> str:
     return f"""# What a step costs
 
 Made by `tools/benchmark`, which builds the release, runs everything below and writes this file; nothing in it is typed by hand.
-Models are those of the paper's Table 1, its flexible arrays at N segments each, and a branched arm for the general recursion.
+Models are those of the paper's Table 1, its flexible arrays at N segments each as panels and, for the general recursion, as bodies, and a branched arm.
 
 {claim_table(results)}
 
