@@ -67,11 +67,7 @@ class Limb {
     recoveries_.resize(first.links.size());
     for (std::size_t l = 0; l < lanes.size(); ++l) set(l, *lanes[l], *plans[l], layout);
     for (std::size_t i = 0; i < links_.size(); ++i) {
-      typename LinkMass<S>::Constants of{};
-      for (std::size_t l = 0; l < lanes.size(); ++l) {
-        of[l] = &plans[l]->tree.links.data()[lanes[l]->links.data()[i].link];
-      }
-      links_[i].mass.set(of);
+      links_[i].mass.set(constants_of(i, lanes, plans));
     }
     for (std::size_t c = 0; c < first.chains.size(); ++c) {
       std::array<const ChainPlan*, kLanes<S>> of_lanes;
@@ -82,12 +78,9 @@ class Limb {
 
   void set_masses(Lanes lanes, Plans plans) {
     for (std::size_t i = 0; i < links_.size(); ++i) {
-      typename LinkMass<S>::Constants of{};
+      const auto of = constants_of(i, lanes, plans);
       bool drains = false;
-      for (std::size_t l = 0; l < kLanes<S>; ++l) {
-        of[l] = &plans[l]->tree.links.data()[lanes[l]->links.data()[i].link];
-        drains = drains || of[l]->drains;
-      }
+      for (const bsm::LinkConstants* constants : of) drains = drains || constants->drains;
       if (!drains) continue;
       links_[i].mass.set(of);
       for (std::size_t e = 0; e < links_[i].elements.size(); ++e) {
@@ -209,6 +202,15 @@ class Limb {
     S gain;
     Vec<S> gain_n, gain_f;
   };
+
+  /// Of link i in every lane.
+  static typename LinkMass<S>::Constants constants_of(std::size_t i, Lanes lanes, Plans plans) {
+    typename LinkMass<S>::Constants of{};
+    for (std::size_t l = 0; l < kLanes<S>; ++l) {
+      of[l] = &plans[l]->tree.links.data()[lanes[l]->links.data()[i].link];
+    }
+    return of;
+  }
 
   static std::size_t index(int i) { return static_cast<std::size_t>(i); }
   const MountMotion<S>& mount(int i) const { return i < 0 ? hub_ : motions_[index(i)].at; }
