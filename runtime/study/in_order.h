@@ -9,6 +9,7 @@
 #include <functional>
 #include <map>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -73,15 +74,18 @@ class OrderedWorkers {
 };
 
 /// Returns when all that was started is done; what a piece of work throws passes through.
-/// @param jobs  threads; 1 works on the caller's own
+/// @param jobs  threads, the caller's own among them; fewer where the machine gives no more
 template <class Result>
 void in_order(const OrderedWork<Result>& plan, int jobs) {
   OrderedWorkers<Result> workers(plan, static_cast<std::size_t>(jobs));
-  if (jobs == 1) {
+  {
+    std::vector<std::jthread> others;
+    try {
+      for (int i = 1; i < jobs; ++i) others.emplace_back([&workers] { workers.work(); });
+    } catch (const std::system_error&) {
+      // Out of threads: slower, and the results are the same.
+    }
     workers.work();
-  } else {
-    std::vector<std::jthread> threads;
-    for (int i = 0; i < jobs; ++i) threads.emplace_back([&workers] { workers.work(); });
   }
   workers.rethrow_failure();
 }
