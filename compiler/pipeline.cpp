@@ -131,6 +131,9 @@ Bundle emit(Model model, const Spec& spec, const Origin& origin,
   bundle.spec_file = origin.file;
   bundle.spec_sha256 = origin.sha256;
   bundle.settings = settings_of(changes, resolved);
+  bundle.emitted_sha256 = {{"bsm", sha256(bundle.assembly_json)},
+                           {"resolved", sha256(bundle.resolved_yaml)}};
+  if (!bundle.mjcf.empty()) bundle.emitted_sha256["mjcf"] = sha256(bundle.mjcf);
   bundle.model = std::move(model);
   return bundle;
 }

@@ -1,6 +1,7 @@
 // What one compilation hands on: the model and the very bytes it is written as.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,7 @@ struct Bundle {
   std::string spec_file;          // as given
   std::string spec_sha256;        // of the bytes of the spec and of all it extends
   std::vector<Setting> settings;  // what the command line and a study changed, in that order
+  std::map<std::string, std::string> emitted_sha256;  // of mjcf, bsm and resolved, as written
 };
 
 }  // namespace twincraft

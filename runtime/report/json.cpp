@@ -161,6 +161,7 @@ Json timing_json(const Timing& timing) {
 Json member_json(const ReportedMember& member) {
   const Member& result = member.result;
   Json json{{"settings", settings_json(member.settings)},
+            {"emitted_sha256", member.bundle.emitted_sha256},
             {"resolved", resolved_json(member.bundle)}};
   for (const EngineRun& run : result.engines)
     json["engines"][run.name] = engine_json(member.bundle.model, run);

@@ -4,38 +4,24 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
+
+#include "tests/compiler/compile_text.h"
 
 namespace twincraft {
 namespace {
 
-namespace fs = std::filesystem;
 using testing::Contains;
 using testing::HasSubstr;
 using testing::SizeIs;
 
-class Pipeline : public testing::Test {
+class Pipeline : public CompilesText {
  protected:
-  CompileResult compile_text(const std::string& text, std::vector<std::string> overrides = {}) {
-    const fs::path path =
-        fs::path(testing::TempDir()) /
-        (std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + ".yaml");
-    std::ofstream(path) << text;
-    CompileResult result = compile({path.string(), std::move(overrides)}, sources_, diagnostics_);
-    fs::remove(path);
-    return result;
-  }
-
   std::vector<Code> codes() const {
     std::vector<Code> found;
     for (const Diagnostic& diagnostic : diagnostics_.all()) found.push_back(diagnostic.code);
     return found;
   }
-
-  Sources sources_;
-  Diagnostics diagnostics_;
 };
 
 constexpr const char* kBrick =
@@ -50,6 +36,11 @@ TEST_F(Pipeline, CompilesTheSmallestSpecWithoutAWord) {
   EXPECT_THAT(result.bundle->mjcf, HasSubstr("brick"));
   EXPECT_EQ(result.bundle->spec_sha256, sha256(kBrick));
   EXPECT_EQ(nlohmann::json::parse(result.bundle->resolved_json)["hub"]["mass"], 600.0);
+  const std::map<std::string, std::string> hashes = {
+      {"mjcf", sha256(result.bundle->mjcf)},
+      {"bsm", sha256(result.bundle->assembly_json)},
+      {"resolved", sha256(result.bundle->resolved_yaml)}};
+  EXPECT_EQ(result.bundle->emitted_sha256, hashes);
 }
 
 TEST_F(Pipeline, StopsAfterTheStageThatFoundFaults) {

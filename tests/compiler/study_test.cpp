@@ -5,17 +5,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <fstream>
 #include <set>
 
 #include "compiler/pipeline.h"
 #include "compiler/syntax/load.h"
+#include "tests/compiler/compile_text.h"
 
 namespace twincraft {
 namespace {
 
-namespace fs = std::filesystem;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -30,18 +28,8 @@ constexpr const char* kPanel =
     "  - {name: wing, hinge: {position: [1, 0, 0], axis: [0, 1, 0], outboard: [1, 0, 0]},\n"
     "     mass: 60, length: 3, inertia: {shape: bar}, stiffness: 600}\n";
 
-class StudyOfAFile : public testing::Test {
+class StudyOfAFile : public CompilesText {
  protected:
-  CompileResult compile_text(const std::string& text, std::vector<std::string> overrides = {}) {
-    const fs::path path =
-        fs::path(testing::TempDir()) /
-        (std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + ".yaml");
-    std::ofstream(path) << text;
-    CompileResult result = compile({path.string(), std::move(overrides)}, sources_, diagnostics_);
-    fs::remove(path);
-    return result;
-  }
-
   Bundle member(const CompileResult& result, std::size_t index) {
     Diagnostics diagnostics;
     std::optional<Bundle> bundle = result.study->compile(index, diagnostics);
@@ -59,9 +47,6 @@ class StudyOfAFile : public testing::Test {
     }
     return all;
   }
-
-  Sources sources_;
-  Diagnostics diagnostics_;
 };
 
 TEST_F(StudyOfAFile, LetsTheLastPathOfAGridVaryFastest) {

@@ -1,0 +1,32 @@
+// For tests that compile from text as from a file: all stages, as both programs run them.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "compiler/pipeline.h"
+
+namespace twincraft {
+
+class CompilesText : public testing::Test {
+ protected:
+  CompileResult compile_text(const std::string& text, std::vector<std::string> overrides = {}) {
+    const std::filesystem::path path =
+        std::filesystem::path(testing::TempDir()) /
+        (std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + ".yaml");
+    std::ofstream(path) << text;
+    CompileResult result = compile({path.string(), std::move(overrides)}, sources_, diagnostics_);
+    std::filesystem::remove(path);
+    return result;
+  }
+
+  Sources sources_;
+  Diagnostics diagnostics_;
+};
+
+}  // namespace twincraft
