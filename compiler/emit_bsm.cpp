@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "compiler/emit_json.h"
+#include "compiler/ir/gravity_law.h"
 
 namespace twincraft {
 namespace {
@@ -120,20 +121,6 @@ Json tank_json(const Tank& tank) {
           {"mass_flow_kg_s", schedule_json(tank.mass_flow)}};
 }
 
-const char* law_word(GravityLaw law) {
-  switch (law) {
-    case GravityLaw::kNone:
-      return "none";
-    case GravityLaw::kSystemCom:
-      return "system_com";
-    case GravityLaw::kBodyCom:
-      return "body_com";
-    case GravityLaw::kBodyGradient:
-      return "body_gradient";
-  }
-  return "";
-}
-
 Json initial_json(const InitialState& initial) {
   const Quaterniond& q = initial.q_BN;
   return {{"r_BN_N_m", vector_json(initial.r_BN_N)},
@@ -163,7 +150,7 @@ std::string emit_bsm(const Model& model) {
   json["coordinates"] = list_json(model.coordinates, coordinate_json);
   json["loads"] = list_json(model.loads, load_json);
   if (!model.tanks.empty()) json["tanks"] = list_json(model.tanks, tank_json);
-  json["gravity"] = {{"mu_m3_s2", model.gravity.mu}, {"law", law_word(model.gravity.bsm)}};
+  json["gravity"] = {{"mu_m3_s2", model.gravity.mu}, {"law", word_of(model.gravity.bsm)}};
   json["initial"] = initial_json(model.initial);
   return json_text(json);
 }

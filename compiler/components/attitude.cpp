@@ -137,7 +137,7 @@ void check_quaternion(const std::vector<double>& q, Span span, Diagnostics& diag
   diagnostics
       .error(Code::kNotUnitQuaternion, span,
              fmt::format("the quaternion has norm {}, not 1", shortest(norm)))
-      .with_hint("scalar first: [1, 0, 0, 0] is no rotation");
+      .with_hint("its digits must give a length of one; scalar first: [1, 0, 0, 0] is no rotation");
 }
 
 void check_rotation(const AttitudeSpec& attitude, Diagnostics& diagnostics) {
@@ -145,8 +145,10 @@ void check_rotation(const AttitudeSpec& attitude, Diagnostics& diagnostics) {
   const Span span = attitude.span_of("dcm_BN");
   const double off = (dcm * dcm.transpose() - Matrix3d::Identity()).cwiseAbs().maxCoeff();
   if (!(off <= kRotationTolerance)) {
-    diagnostics.error(Code::kNotARotation, span,
-                      fmt::format("`dcm_BN` is off orthonormal by {}", shortest(off)));
+    diagnostics
+        .error(Code::kNotARotation, span,
+               fmt::format("`dcm_BN` is off orthonormal by {}", shortest(off)))
+        .with_hint("its rows are the axes of B in N: perpendicular, and of length one");
   } else if (dcm.determinant() < 0.0) {
     diagnostics.error(Code::kNotARotation, span, "`dcm_BN` is left-handed: a mirror image")
         .with_hint("change the sign of one row");
@@ -159,7 +161,7 @@ bool check_target(const AlignSpec& align, const PointState* point, Diagnostics& 
   if (point == nullptr) {
     diagnostics
         .error(Code::kNeedsGravity, align.span_of("to"),
-               "a direction of the orbit in deep space, where there is none")
+               "a direction of the orbit, but the spec has no gravity")
         .with_hint("give a vector in N components, or `environment.gravity`");
     return false;
   }

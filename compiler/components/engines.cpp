@@ -57,7 +57,8 @@ template <class Engine>
 void check_override(const Engine& engine, bool deep_space, Diagnostics& diagnostics) {
   if (!engine.gravity || !deep_space) return;
   diagnostics
-      .error(Code::kNeedsGravity, engine.span_of("gravity"), "a law of gravity in deep space")
+      .error(Code::kNeedsGravity, engine.span_of("gravity"),
+             "a law of gravity, but the spec has no gravity")
       .with_hint("add `environment: {gravity: {mu: 3.98600436e14 m3/s2}}`");
 }
 

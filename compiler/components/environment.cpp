@@ -1,6 +1,12 @@
 // See environment.h. Tested by tests/compiler/engines_test.cpp.
 #include "compiler/components/environment.h"
 
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "compiler/ir/gravity_law.h"
+
 namespace twincraft {
 namespace {
 
@@ -23,9 +29,11 @@ const Table<GravitySpec>& gravity_table() {
 }  // namespace
 
 Kind<GravityLaw> gravity_law() {
-  return one_of<GravityLaw>({{"system_com", GravityLaw::kSystemCom},
-                             {"body_com", GravityLaw::kBodyCom},
-                             {"body_gradient", GravityLaw::kBodyGradient}});
+  std::vector<std::pair<std::string, GravityLaw>> words;
+  for (const GravityLaw law :
+       {GravityLaw::kSystemCom, GravityLaw::kBodyCom, GravityLaw::kBodyGradient})
+    words.emplace_back(word_of(law), law);
+  return one_of(std::move(words));
 }
 
 const Table<EnvironmentSpec>& environment_table() {

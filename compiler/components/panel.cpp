@@ -101,16 +101,20 @@ void check_shape(const ShapeSpec& shape, const std::string& who, Diagnostics& di
   const char* const name = plate ? "plate" : "bar";
   for (const char* key : {"width", "thickness"}) {
     if (plate && !shape.has(key)) {
-      diagnostics.error(Code::kShapeKey, shape.span(),
-                        fmt::format("the plate of {} has no `{}`", who, key));
+      diagnostics
+          .error(Code::kShapeKey, shape.span(),
+                 fmt::format("the plate of {} has no `{}`", who, key))
+          .with_hint(fmt::format("add `{}`, or take `shape: bar`", key));
     }
   }
   const auto foreign =
       plate ? std::array{"axial_ratio", "axial_minimum"} : std::array{"width", "thickness"};
   for (const char* key : foreign) {
     if (!shape.has(key)) continue;
-    diagnostics.error(Code::kShapeKey, shape.span_of(key),
-                      fmt::format("a {} has no `{}`, in {}", name, key, who));
+    diagnostics
+        .error(Code::kShapeKey, shape.span_of(key),
+               fmt::format("a {} has no `{}`, in {}", name, key, who))
+        .with_hint(fmt::format("delete it, or take `shape: {}`", plate ? "bar" : "plate"));
   }
 }
 

@@ -53,7 +53,8 @@ void check_inertia(const Matrix3d& I, Span span, const std::string& whose,
                        message("breaks the triangle inequality by rounding"));
       return;
     case Physicality::kNotPositive:
-      diagnostics.error(Code::kInertiaNotPositive, span, message("is not positive definite"));
+      diagnostics.error(Code::kInertiaNotPositive, span, message("is not positive definite"))
+          .with_hint("check the signs; off the diagonal stand minus the products of inertia");
       return;
     case Physicality::kTriangleViolated:
       diagnostics.error(Code::kInertiaTriangle, span, message("violates the triangle inequality"))

@@ -90,7 +90,8 @@ const Table<Spec>& spec_table() {
   static const Table<Spec> table{
       "spec",
       "One spacecraft, its surroundings, and the run that compares both engines on it. A plain "
-      "number is in SI units; a text such as `12 deg` carries its unit.",
+      "number is in SI units; a text such as `12 deg` carries its unit. Quotes "
+      "about either change nothing.",
       {
           required(
               "format", &Spec::format, text(),

@@ -33,8 +33,7 @@ Kind<std::vector<V>> list_of(Kind<V> item, std::size_t minimum, std::size_t maxi
       .schema = list_schema(item.schema, minimum, maximum),
       .read = [item, minimum, maximum](const Node& node,
                                        ReadContext& context) -> std::optional<std::vector<V>> {
-        if (!check_list(node, context, minimum, maximum, "a list of " + item.text))
-          return std::nullopt;
+        if (!check_list(node, context, minimum, maximum, "a list")) return std::nullopt;
         std::vector<V> values;
         for (std::size_t i = 0; i < node.items.size(); ++i) {
           ReadContext at_item = item_of(context, i);

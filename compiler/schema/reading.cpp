@@ -38,7 +38,9 @@ const std::string* scalar_text(const Node& node, ReadContext& context, const std
 bool check_list(const Node& node, ReadContext& context, std::size_t minimum, std::size_t maximum,
                 const std::string& expected) {
   if (!node.is_list()) {
-    report_wrong_type(node, context, expected, "lists are written `[.., ..]`");
+    report_wrong_type(
+        node, context, expected,
+        node.is_map() ? "begin every item with `- `" : "lists are written `[.., ..]`");
     return false;
   }
   const std::size_t count = node.items.size();

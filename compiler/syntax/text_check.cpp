@@ -15,9 +15,17 @@ namespace {
 // opened than closed is no prose.
 constexpr std::size_t kOpenBracketsInAnyText = 10'000;
 
-bool looks_like_utf16(std::string_view text) {
-  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) return true;
-  return text.size() >= 2 && (text[0] == '\0') != (text[1] == '\0');
+/// The encoding whose mark a text begins with, or whose zeros are about its first character.
+std::string_view wide_encoding(std::string_view text) {
+  using namespace std::string_view_literals;
+  const std::string_view first = text.substr(0, 4);
+  if (first == "\xFF\xFE\0\0"sv || first == "\0\0\xFE\xFF"sv) return "UTF-32";
+  if (first.starts_with("\xFF\xFE") || first.starts_with("\xFE\xFF")) return "UTF-16";
+  std::string zeros;
+  for (const char c : first) zeros += c == '\0' ? '0' : 'x';
+  if (zeros == "x000" || zeros == "000x") return "UTF-32";
+  if (zeros == "x0x0" || zeros == "0x0x") return "UTF-16";
+  return {};
 }
 
 bool is_forbidden(char32_t code, std::string_view rest) {
@@ -40,8 +48,10 @@ void report_control(const Source& source, std::size_t at, char32_t code, Diagnos
 
 bool check_characters(const Source& source, Diagnostics& diagnostics) {
   const std::string_view text = source.text();
-  if (looks_like_utf16(text)) {
-    diagnostics.error(Code::kNotUtf8, source.span(0, 1), "the text is UTF-16, not UTF-8")
+  if (const std::string_view encoding = wide_encoding(text); !encoding.empty()) {
+    diagnostics
+        .error(Code::kNotUtf8, source.span(0, 1),
+               fmt::format("the text is {}, not UTF-8", encoding))
         .with_hint("save the file as UTF-8");
     return false;
   }

@@ -82,8 +82,9 @@ void TreeBuilder::OnNull(const YAML::Mark& mark, YAML::anchor_t /*anchor*/) {
 void TreeBuilder::OnAlias(const YAML::Mark& mark, YAML::anchor_t /*anchor*/) {
   const std::size_t offset = offset_of(mark);
   const std::size_t length = end_of_word(text_, offset) - offset;
-  report(Code::kAnchor, source_.span(offset, length),
-         fmt::format("alias {}", in_backticks(text_.substr(offset, length))))
+  report(
+      Code::kAnchor, source_.span(offset, length),
+      fmt::format("YAML aliases are not used here: {}", in_backticks(text_.substr(offset, length))))
       .with_hint("write the value out, or share parts of specs with `extends`");
   if (expects_key()) return refuse_key();
   Node node;
@@ -93,7 +94,7 @@ void TreeBuilder::OnAlias(const YAML::Mark& mark, YAML::anchor_t /*anchor*/) {
 
 void TreeBuilder::OnAnchor(const YAML::Mark& mark, const std::string& name) {
   report(Code::kAnchor, source_.span(offset_of(mark), name.size() + 1),
-         fmt::format("anchor {}", in_backticks("&" + name)))
+         fmt::format("YAML anchors are not used here: {}", in_backticks("&" + name)))
       .with_hint("write the value out, or share parts of specs with `extends`");
 }
 
@@ -194,7 +195,7 @@ bool TreeBuilder::is_good_key(const Node& node) {
     return false;
   }
   if (node.scalar == "<<") {
-    report(Code::kMergeKey, node.span, "merge key `<<`")
+    report(Code::kMergeKey, node.span, "YAML merge keys are not used here")
         .with_hint("start from another spec with `extends: other.yaml`");
     return false;
   }

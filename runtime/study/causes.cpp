@@ -9,6 +9,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "compiler/ir/gravity_law.h"
 #include "compiler/ir/number.h"
 #include "runtime/integrate/tableau.h"
 
@@ -102,20 +103,6 @@ std::vector<Scaling> scale_particle_inertia(const Bundle& bundle) {
 
 bool has_two_laws(const Bundle& bundle) {
   return bundle.model.gravity.bsm != bundle.model.gravity.mujoco;
-}
-
-std::string_view word_of(GravityLaw law) {
-  switch (law) {
-    case GravityLaw::kSystemCom:
-      return "system_com";
-    case GravityLaw::kBodyCom:
-      return "body_com";
-    case GravityLaw::kBodyGradient:
-      return "body_gradient";
-    case GravityLaw::kNone:
-      break;
-  }
-  return "null";
 }
 
 // ---- attitude chart

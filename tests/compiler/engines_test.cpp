@@ -49,7 +49,8 @@ TEST(Engines, ApplyGravityAsTheEnvironmentSaysUnlessOverridden) {
 
 TEST(Engines, CannotOverrideAGravityThatIsNotThere) {
   const Trial trial(brick_with("engines: {mujoco: {gravity: body_com}}\n"));
-  EXPECT_THAT(trial.faults(), ElementsAre(HasSubstr("8:29 SC3301 a law of gravity in deep space")));
+  EXPECT_THAT(trial.faults(),
+              ElementsAre(HasSubstr("8:29 SC3301 a law of gravity, but the spec has no")));
 }
 
 TEST(Engines, RefuseATokenMassThatTheMountCannotSpare) {
