@@ -1,4 +1,4 @@
-// Decides how the shared state is handed to MuJoCo and how its accelerations are taken back.
+// Decides which of MuJoCo's stages see a state, in which frame, and with which forces.
 //
 // Only the stages that matter are called: no contacts, constraints, sensors or actuation; motor
 // torques and joint efforts go straight into the force vector. In the co-moving frame MuJoCo sees
@@ -24,6 +24,7 @@
 #include "runtime/forces/forces.h"
 #include "runtime/forces/propellant_ledger.h"
 #include "runtime/mujoco/draining.h"
+#include "runtime/mujoco/exchange.h"
 #include "runtime/mujoco/handles.h"
 #include "runtime/mujoco/motion_sums.h"
 #include "runtime/mujoco/passive_joints.h"
@@ -35,13 +36,6 @@ namespace twincraft {
 namespace {
 
 using Input = Eigen::Map<const Vector3d>;
-using Output = Eigen::Map<Vector3d>;
-
-StateLayout layout_of(const Model& model) {
-  return StateLayout{.chart = AttitudeChart::kQuaternion,
-                     .joints = static_cast<int>(model.assembly.links.size()) - 1,
-                     .wheels = static_cast<int>(model.assembly.rotors.size())};
-}
 
 MujocoModel load(const Model& model, const std::string& mjcf) {
   MujocoModel loaded = load_mjcf(mjcf);
@@ -51,13 +45,6 @@ MujocoModel load(const Model& model, const std::string& mjcf) {
   loaded->nsite = 0;
   return loaded;
 }
-
-/// How the hub is placed in MuJoCo's world for an evaluation.
-enum class Placement {
-  kAligned,  // at rest at zero, its axes along the world's: the co-moving frame
-  kCentred,  // at rest at zero, with its true attitude: for observations in N
-  kRaw,      // as it is: the inertial frame of the paper
-};
 
 Placement placement_of(MujocoFrame frame) {
   return frame == MujocoFrame::kComoving ? Placement::kAligned : Placement::kRaw;
@@ -72,22 +59,12 @@ Matrix3d dcm_of(const double* q) {
   return Quaterniond(q[0], q[1], q[2], q[3]).normalized().toRotationMatrix();
 }
 
-// qDot = 1/2 q (x) (0, omega_BN_B), scalar first, of the normalised quaternion, as MuJoCo reads it.
-void write_quaternion_rate(const double* q, const double* omega, double* rate) {
-  const double half = 0.5 / std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-  const double w = half * q[0], x = half * q[1], y = half * q[2], z = half * q[3];
-  rate[0] = -x * omega[0] - y * omega[1] - z * omega[2];
-  rate[1] = w * omega[0] + y * omega[2] - z * omega[1];
-  rate[2] = w * omega[1] + z * omega[0] - x * omega[2];
-  rate[3] = w * omega[2] + x * omega[1] - y * omega[0];
-}
-
 class MujocoEngine final : public Engine {
  public:
   MujocoEngine(const Model& model, const std::string& mjcf);
 
   std::string_view name() const override { return "mujoco"; }
-  const StateLayout& layout() const override { return layout_; }
+  const StateLayout& layout() const override { return exchange_.layout(); }
   Eigen::VectorXd initial_state() const override;
   void hold_inputs(double time) override;
   void derivative(double time, std::span<const double> state, std::span<double> rate) override;
@@ -97,13 +74,10 @@ class MujocoEngine final : public Engine {
   Eigen::MatrixXd mass_matrix(std::span<const double> state) override;
 
  private:
-  void hand_over(const double* state, Placement placement);
   void drain(double time);
   void add_leaving(const Vector3d& r_BN_N, const Vector3d& v_BN_N, const MotionSums& sums,
                    ExternalRates& rates) const;
-  double take_back(const double* state, const Vector3d& a_BN_N, double* rate) const;
   [[noreturn]] void fail(double time, std::span<const double> state, std::span<const double> rate);
-  std::string coordinate_name(int index) const;
   MotionSums move_to(std::span<const double> state);
   void gather_poses();
   void gather_rates(const Vector3d& v_BN_N);
@@ -114,10 +88,10 @@ class MujocoEngine final : public Engine {
   InitialState initial_;
   Placement placement_;
   GravityLaw law_;
-  StateLayout layout_;
   MujocoModel model_;
   MujocoData data_;
   TreeMap map_;
+  Exchange exchange_;
   PassiveJoints passive_;
   PropellantLedger propellant_;
   double drained_to_ = 0.0;  // [s] the time the masses are of; NaN: of none
@@ -136,10 +110,10 @@ MujocoEngine::MujocoEngine(const Model& model, const std::string& mjcf)
       initial_(model.initial),
       placement_(placement_of(model.engines.frame)),
       law_(model.gravity.mujoco),
-      layout_(layout_of(model)),
       model_(load(model, mjcf)),
       data_(make_data(*model_)),
       map_(map_tree(model, *model_)),
+      exchange_(assembly_, map_),
       passive_(assembly_, map_, *model_),
       propellant_(model.tanks),
       draining_(model, *model_),
@@ -158,7 +132,7 @@ Eigen::VectorXd MujocoEngine::initial_state() const {
     return Eigen::VectorXd::Map(values.data(), static_cast<Eigen::Index>(values.size()));
   };
   const Quaterniond& q = initial_.q_BN;
-  Eigen::VectorXd state(layout_.size());
+  Eigen::VectorXd state(layout().size());
   state << initial_.r_BN_N, initial_.v_BN_N, q.w(), q.x(), q.y(), q.z(), initial_.omega_BN_B,
       entries(initial_.joint_position), entries(initial_.joint_rate), entries(initial_.rotor_speed);
   return state;
@@ -193,7 +167,7 @@ void MujocoEngine::derivative(double time, std::span<const double> state, std::s
                               ? dcm_of(state.data() + StateLayout::attitude())
                               : Matrix3d::Identity();
   drain(time);
-  hand_over(state.data(), placement_);
+  exchange_.hand_over(state.data(), placement_, *d);
   mj_kinematics(m, d);
   mj_comPos(m, d);
   const double* applied = inputs_.data();
@@ -209,67 +183,10 @@ void MujocoEngine::derivative(double time, std::span<const double> state, std::s
   passive_.apply(*d);
   for (int i = 0; i < m->nv; ++i) d->qacc[i] = d->qfrc_passive[i] - d->qfrc_bias[i] + applied[i];
   mj_solveM(m, d, d->qacc, d->qacc, 1);
-  const double sum = take_back(state.data(), dcm_NW * Input(d->qacc) + fall_N, rate.data());
+  const double sum =
+      exchange_.take_back(state.data(), dcm_NW * Input(d->qacc) + fall_N, *d, rate.data());
   // A singular mass matrix only warns, and MuJoCo goes on with a made-up pivot.
   if (!std::isfinite(sum) || d->warning[mjWARN_INERTIA].number > 0) fail(time, state, rate);
-}
-
-// MuJoCo normalises the quaternion in place, which is not idempotent in the last bit, so everything
-// is copied anew before every evaluation.
-void MujocoEngine::hand_over(const double* state, Placement placement) {
-  static constexpr double kIdentity[4] = {1.0, 0.0, 0.0, 0.0};
-  double* qpos = data_->qpos;
-  double* qvel = data_->qvel;
-  const bool raw = placement == Placement::kRaw;
-  for (int i = 0; i < 3; ++i) {
-    qpos[i] = raw ? state[StateLayout::position() + i] : 0.0;
-    qvel[i] = raw ? state[StateLayout::velocity() + i] : 0.0;
-    qvel[3 + i] = state[layout_.rate() + i];
-  }
-  const bool aligned = placement == Placement::kAligned;
-  std::copy_n(aligned ? kIdentity : state + StateLayout::attitude(), 4, qpos + 3);
-  for (int i = 0; i < layout_.joints; ++i) {
-    qpos[map_.joint_qpos.data()[i]] = state[layout_.joint() + i];
-    qvel[map_.joint_dof.data()[i]] = state[layout_.joint_rate() + i];
-  }
-  for (int i = 0; i < layout_.wheels; ++i) {
-    qvel[map_.wheel_dof.data()[i]] = state[layout_.wheel() + i];
-  }
-}
-
-// @return a sum that is finite only if every acceleration is
-double MujocoEngine::take_back(const double* state, const Vector3d& a_BN_N, double* rate) const {
-  const double* qacc = data_->qacc;
-  double sum = 0.0;
-  for (int i = 0; i < 3; ++i) {
-    rate[StateLayout::position() + i] = state[StateLayout::velocity() + i];
-    sum += rate[StateLayout::velocity() + i] = a_BN_N[i];
-    sum += rate[layout_.rate() + i] = qacc[3 + i];
-  }
-  write_quaternion_rate(state + StateLayout::attitude(), state + layout_.rate(),
-                        rate + StateLayout::attitude());
-  for (int i = 0; i < layout_.joints; ++i) {
-    rate[layout_.joint() + i] = state[layout_.joint_rate() + i];
-    sum += rate[layout_.joint_rate() + i] = qacc[map_.joint_dof.data()[i]];
-  }
-  for (int i = 0; i < layout_.wheels; ++i) {
-    sum += rate[layout_.wheel() + i] = qacc[map_.wheel_dof.data()[i]];
-  }
-  return sum;
-}
-
-std::string MujocoEngine::coordinate_name(int index) const {
-  if (index < StateLayout::velocity()) return "hub position";
-  if (index < StateLayout::attitude()) return "hub velocity";
-  if (index < layout_.rate()) return "hub attitude";
-  if (index < layout_.joint()) return "hub rate";
-  const auto joint = [this](int i) {
-    return fmt::format("`{}`", assembly_.links[static_cast<std::size_t>(i + 1)].name);
-  };
-  if (index < layout_.joint_rate()) return joint(index - layout_.joint());
-  if (index < layout_.wheel()) return "rate of " + joint(index - layout_.joint_rate());
-  const auto wheel = static_cast<std::size_t>(index - layout_.wheel());
-  return fmt::format("rate of `{}`", assembly_.rotors[wheel].name);
 }
 
 // One bad entry spoils all accelerations, so the state is searched for the culprit first.
@@ -278,14 +195,14 @@ void MujocoEngine::fail(double time, std::span<const double> state, std::span<co
   const mjWarningStat singular = std::exchange(data_->warning[mjWARN_INERTIA], {});
   std::string what;
   if (const auto x = std::ranges::find_if(state, bad); x != state.end()) {
-    what = coordinate_name(static_cast<int>(x - state.begin())) + " is not finite";
+    what = exchange_.name(static_cast<int>(x - state.begin())) + " is not finite";
   } else if (singular.number > 0) {
     const int joint = model_->dof_jntid[singular.lastinfo];
     what = fmt::format("the mass matrix is singular at `{}`",
                        mj_id2name(model_.get(), mjOBJ_JOINT, joint));
   } else {
     const auto r = std::ranges::find_if(rate, bad);
-    what = coordinate_name(static_cast<int>(r - rate.begin())) + " has a rate that is not finite";
+    what = exchange_.name(static_cast<int>(r - rate.begin())) + " has a rate that is not finite";
   }
   throw NumericalFailure(fmt::format("mujoco: at t = {} s {}", shortest(time), what));
 }
@@ -317,7 +234,7 @@ Vector3d MujocoEngine::project_forces(const Vector3d& r_BN_N, const Matrix3d& dc
 
 // The vehicle at `state`, centred in any frame: what is observed is not what is tested.
 MotionSums MujocoEngine::move_to(std::span<const double> state) {
-  hand_over(state.data(), Placement::kCentred);
+  exchange_.hand_over(state.data(), Placement::kCentred, *data_);
   mj_kinematics(model_.get(), data_.get());
   mj_comPos(model_.get(), data_.get());
   mj_comVel(model_.get(), data_.get());
@@ -328,6 +245,7 @@ MotionSums MujocoEngine::move_to(std::span<const double> state) {
 Observation MujocoEngine::observe(double time, std::span<const double> state) {
   drain(time);
   const MotionSums sums = move_to(state);
+  const StateLayout& layout = this->layout();
   const double* x = state.data();
   const double* q = x + StateLayout::attitude();
   const auto entries = [x](int begin, int end) { return std::vector(x + begin, x + end); };
@@ -337,12 +255,12 @@ Observation MujocoEngine::observe(double time, std::span<const double> state) {
   seen.v_BN_N = Input(x + StateLayout::velocity());
   seen.q_BN = Quaterniond(q[0], q[1], q[2], q[3]).normalized();
   if (seen.q_BN.w() < 0.0) seen.q_BN.coeffs() *= -1.0;
-  seen.omega_BN_B = Input(x + layout_.rate());
+  seen.omega_BN_B = Input(x + layout.rate());
   seen.r_CN_N = seen.r_BN_N + sums.r_CB_N;
   seen.v_CN_N = sums.v_CN_N;
-  seen.joint_position = entries(layout_.joint(), layout_.joint_rate());
-  seen.joint_rate = entries(layout_.joint_rate(), layout_.wheel());
-  seen.wheel_rate = entries(layout_.wheel(), layout_.size());
+  seen.joint_position = entries(layout.joint(), layout.joint_rate());
+  seen.joint_rate = entries(layout.joint_rate(), layout.wheel());
+  seen.wheel_rate = entries(layout.wheel(), layout.size());
   seen.mass = sums.mass;
   seen.kinetic = sums.kinetic;
   seen.potential = passive_.spring_energy(*data_) + forces_.potential(seen.r_BN_N, poses_);
