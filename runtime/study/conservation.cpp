@@ -11,9 +11,10 @@ namespace {
 
 // Below this share of the kinetic energy a total is a difference of large terms, not a scale.
 constexpr double kCancelled = 1.0e-6;
-// Below this share of the angular momentum on an arm of 1 m a momentum is that of token masses, and
-// rounding.
-constexpr double kTokens = 1.0e-9;
+// Below this share of the angular momentum on an arm of 1 m a momentum is no scale: it is that of
+// token masses, or so small that the rounding of what a fast wheel's rim exchanges (m Omega^2 r of
+// a wheel off the axis, before it cancels) is as large as what is balanced.
+constexpr double kAtRest = 1.0e-5;
 // Below this share of impulse or momentum on an arm of 1 m an angular momentum is rounding.
 constexpr double kRounding = 1.0e-12;
 
@@ -38,9 +39,9 @@ struct Scales {
     return energy.maximum < kCancelled * kinetic.maximum ? kinetic.maximum : energy.maximum;
   }
 
-  /// In a vehicle at rest with wheels that spin, forces cancel and nothing moves but token masses.
+  /// In a vehicle at rest with wheels that spin, forces cancel and next to nothing moves.
   double momentum_scale() const {
-    return momentum.maximum > kTokens * H.maximum ? momentum.maximum : H.maximum;
+    return momentum.maximum > kAtRest * H.maximum ? momentum.maximum : H.maximum;
   }
 
   /// A vehicle that never turns has the rounding of forces and momenta on arms of about a metre for

@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "compiler/diag/print.h"
+#include "compiler/emit_resolved.h"
 #include "compiler/pipeline.h"
 #include "runtime/bsm/engine.h"
 #include "runtime/mujoco/engine.h"
@@ -21,6 +22,8 @@
 #include "runtime/study/conservation.h"
 #include "runtime/study/proof.h"
 #include "runtime/study/random_state.h"
+#include "tests/random/parts.h"
+#include "tests/support/run_program.h"
 #include "tests/support/simbody_oracle.h"
 
 namespace twincraft::random_vehicles {
@@ -57,7 +60,8 @@ class Examination {
       : text_(text), name_(name), record_(record) {}
 
   std::optional<Finding> run() {
-    if (!compiles() || !is_resolved_to_itself() || !is_read_back()) return finding_;
+    if (!compiles() || !is_resolved_to_itself() || !is_the_sum_of_its_parts()) return finding_;
+    if (!is_the_member_of_a_study() || !is_read_back()) return finding_;
     const Model& model = bundle_->model;
     if (!is_proved()) return finding_;
     if (!model.simulation.translation && !is_voted_for()) return finding_;
@@ -82,13 +86,16 @@ class Examination {
     return fail(check, fmt::format("{:.2e} at {}, bound {:g}", value, where, bound));
   }
 
-  static std::optional<Bundle> compile_text(const std::string& text, std::string& faults) {
+  /// The spec, or the first member of its study.
+  static std::optional<Bundle> compile_text(const std::string& text, std::string& faults,
+                                            const std::string& file = "vehicle.yaml") {
     static std::mutex one_at_a_time;  // UDUNITS is no library for threads
     const std::lock_guard lock(one_at_a_time);
     Sources sources;
     Diagnostics diagnostics;
-    CompileRequest request{.file = "vehicle.yaml", .overrides = {}, .text = text};
+    CompileRequest request{.file = file, .overrides = {}, .text = text};
     CompileResult result = compile(request, sources, diagnostics);
+    if (result.study) result.bundle = result.study->compile(0, diagnostics);
     faults = to_text(diagnostics, {});
     return std::move(result.bundle);
   }
@@ -107,14 +114,35 @@ class Examination {
 
   bool is_resolved_to_itself() {
     std::string faults;
-    const std::optional<Bundle> again = compile_text(bundle_->resolved_yaml, faults);
-    if (!again) return fail("resolved spec compiles", faults);
-    if (again->mjcf != bundle_->mjcf) return fail("resolved spec", "another MJCF");
-    if (again->assembly_json != bundle_->assembly_json)
-      return fail("resolved spec", "another assembly");
-    if (again->resolved_yaml != bundle_->resolved_yaml)
-      return fail("resolved spec", "another resolved spec");
+    return is_the_same("resolved spec", compile_text(bundle_->resolved_yaml, faults), faults);
+  }
+
+  bool is_the_same(const std::string& what, const std::optional<Bundle>& again,
+                   const std::string& faults) {
+    if (!again) return fail(what + " compiles", faults);
+    if (again->mjcf != bundle_->mjcf) return fail(what, "another MJCF");
+    if (again->assembly_json != bundle_->assembly_json) return fail(what, "another assembly");
+    if (again->resolved_yaml != bundle_->resolved_yaml) return fail(what, "another resolved spec");
     return true;
+  }
+
+  bool is_the_sum_of_its_parts() {
+    const test::TemporaryFolder folder;
+    Parts parts = deal(Json::parse(bundle_->resolved_json));
+    folder.write("base.yaml", emit_resolved(parts.base));
+    parts.rest["extends"] = "base.yaml";
+    std::string faults;
+    const std::optional<Bundle> merged =
+        compile_text(emit_resolved(parts.rest), faults, folder.write("rest.yaml", ""));
+    return is_the_same("spec in two files", merged, faults);
+  }
+
+  bool is_the_member_of_a_study() {
+    Json spec = Json::parse(bundle_->resolved_json);
+    const Json duration = spec["simulation"]["duration"];
+    spec["study"]["sweep"] = {{{"set", "simulation.duration"}, {"values", {duration}}}};
+    std::string faults;
+    return is_the_same("member of a study", compile_text(emit_resolved(spec), faults), faults);
   }
 
   bool is_read_back() {

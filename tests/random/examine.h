@@ -1,6 +1,6 @@
 // All that must hold for any vehicle, on one of them: it compiles, its halves are one machine, its
 // engines and a third one accelerate alike, the books balance, MuJoCo reads back what was written,
-// and the resolved spec is the same spec.
+// and the resolved spec, the spec in two files and the member of a study are the same spec.
 #pragma once
 
 #include <map>

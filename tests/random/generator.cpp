@@ -56,11 +56,11 @@ void Sections::environment() {
   Json& gravity = spec_["environment"]["gravity"];
   gravity["mu"] = draw_.chance(0.5) ? Json(3.98600436e14) : Json("398600.436 km3/s2");
   maybe(
-      gravity, "application",
-      [&] {
-        return draw_.one_of<std::string>({"system_com", "body_com", "body_gradient"});
-      },
-      0.9);
+      gravity, "application", [&] { return law(); }, 0.9);
+}
+
+Json Sections::law() {
+  return draw_.one_of<std::string>({"system_com", "body_com", "body_gradient"});
 }
 
 void Sections::orbit(Json& initial) {
@@ -129,6 +129,15 @@ void Sections::engines() {
         return {{"wheel_mass", draw_.size(1.0e-7, 1.0e-4)}};
       },
       0.3);
+  maybe(
+      engines["bsm"], "chains",
+      [&] {
+        return draw_.one_of<std::string>({"planar", "general"});
+      },
+      0.3);
+  if (has_gravity_ && draw_.chance(0.3)) {  // both engines otherwise than the environment says
+    engines["bsm"]["gravity"] = engines["mujoco"]["gravity"] = law();
+  }
 }
 
 void Sections::stored(bool point_mass) {

@@ -42,6 +42,7 @@ class Sections {
   Json three_schedules(double size, const std::string& dimension);
   void loads(bool point_mass);
   void environment();
+  Json law();
   void orbit(Json& initial);
   void initial(bool point_mass);
   Json step();
