@@ -27,7 +27,7 @@ std::string wrapped(std::string_view text, std::size_t width) {
 }
 
 void describe(CLI::App& app, CommonOptions& options) {
-  describe_input(app, options, "report.json");
+  describe_input(app, options, "report.json and report.html");
   describe_jobs(app, options, "variants at a time (default: all cores)");
   describe_talk(app, options);
   app.set_help_flag("-h,--help", "print this");
@@ -171,6 +171,7 @@ int attribute_command(int argc, char** argv) {
   Sources sources;
   CompileResult compiled;
   if (const int code = compile_spec(options, sources, compiled); code != kExitDone) return code;
+  if (const int code = check_writable(report_files(options)); code != kExitDone) return code;
   return explain(std::move(compiled), options);
 }
 

@@ -108,12 +108,24 @@ int compile_spec(const CommonOptions& options, Sources& sources, CompileResult& 
   return result.bundle && !diagnostics.has_errors() ? kExitDone : kExitFindings;
 }
 
-int write_report(const Report& report, const CommonOptions& options, Page page) {
-  if (options.folder.empty()) return kExitDone;
+std::vector<std::string> report_files(const CommonOptions& options) {
+  if (options.folder.empty()) return {};
   const std::filesystem::path folder = options.folder;
-  std::vector<OutputFile> files{{(folder / "report.json").string(), report_json(report)}};
-  if (page == Page::kYes) files.push_back({(folder / "report.html").string(), report_html(report)});
-  const std::string error = write_files(files);
+  return {(folder / "report.json").string(), (folder / "report.html").string()};
+}
+
+int check_writable(const std::vector<std::string>& files) {
+  const std::string error = try_files(files);
+  if (error.empty()) return kExitDone;
+  complain(error);
+  return kExitInputOutput;
+}
+
+int write_report(const Report& report, const CommonOptions& options) {
+  const std::vector<std::string> files = report_files(options);
+  if (files.empty()) return kExitDone;
+  const std::string error =
+      write_files({{files[0], report_json(report)}, {files[1], report_html(report)}});
   if (error.empty()) return kExitDone;
   complain(error);
   return kExitInputOutput;

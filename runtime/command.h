@@ -45,11 +45,14 @@ int jobs_of(const CommonOptions& options);
 /// Compile, and say what is wrong. @return an exit code, 0 with `result.bundle`
 int compile_spec(const CommonOptions& options, Sources& sources, CompileResult& result);
 
-/// Whether report.html is written too.
-enum class Page { kNo, kYes };
+/// What the report will be called; nothing without -o.
+std::vector<std::string> report_files(const CommonOptions& options);
 
-/// report.json beside the first member's files. @return the exit code
-int write_report(const Report& report, const CommonOptions& options, Page page = Page::kNo);
+/// Whether they could be written, said now rather than after a run of hours. @return the exit code
+int check_writable(const std::vector<std::string>& files);
+
+/// @return the exit code
+int write_report(const Report& report, const CommonOptions& options);
 
 /// Whether a report for people goes to standard output; with JSON diagnostics that one document
 /// holds it.

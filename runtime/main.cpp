@@ -68,13 +68,12 @@ std::filesystem::path folder_of(std::size_t index, const Options& options) {
   return index == 0 ? folder : folder / fmt::format("{:04}", index);
 }
 
-/// What a member and, beside the first one, the report will be called; nothing without -o.
-std::vector<std::string> files_of(std::size_t index, const Options& options) {
-  std::vector<std::string> files;
-  if (options.folder.empty()) return files;
-  const std::filesystem::path folder = folder_of(index, options);
-  for (const char* name : {"report.json", "report.html", "bsm.csv", "mujoco.csv"})
-    files.push_back((folder / name).string());
+/// What is sure to be written: the report and the first member's trajectories; nothing without -o.
+std::vector<std::string> first_files(const Options& options) {
+  std::vector<std::string> files = report_files(options);
+  if (files.empty()) return files;
+  for (const char* name : {"bsm.csv", "mujoco.csv"})
+    files.push_back((folder_of(0, options) / name).string());
   return files;
 }
 
@@ -96,7 +95,7 @@ std::string write_trajectories(std::size_t index, const ReportedMember& member,
 
 /// Files first: a reader of the report who leaves early must not cost the results.
 int deliver(const Report& report, const Options& options) {
-  const int written = write_report(report, options, Page::kYes);
+  const int written = write_report(report, options);
   if (!prints_report(options)) return written;
   const bool colour = wants_colour(STDOUT_FILENO);
   const int printed = print(report.study ? study_table(report, colour)
@@ -185,11 +184,7 @@ int compile_and_simulate(const Options& options) {
   Sources sources;
   CompileResult result;
   if (const int code = compile_spec(options, sources, result); code != kExitDone) return code;
-  // Now rather than after a run of hours.
-  if (const std::string error = try_files(files_of(0, options)); !error.empty()) {
-    complain(error);
-    return kExitInputOutput;
-  }
+  if (const int code = check_writable(first_files(options)); code != kExitDone) return code;
   return simulate(std::move(result), options);
 }
 

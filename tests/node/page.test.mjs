@@ -253,6 +253,23 @@ test("the first lines say why the verdict is what it is", async () => {
   }
 });
 
+test("an attribution says what carries the difference, and how it goes away", async () => {
+  const made = report("why", "attribute", "models/paper/rw_panels.yaml", "--set", "engines.mujoco.compensate=false");
+  const { page, complaints } = await open(browser, made.file);
+  await seeAll(page);
+  const { attribution, explanation } = made.json;
+  assert.equal((await page.textContent("#why-they-differ p")).toLowerCase(), `${explanation.conclusion}.`.toLowerCase());
+  const carried = await numbersOf(page, "What carries the difference");
+  const left = Object.values(await numbersOf(page, "Causes removed one after another"));
+  assert.ok(attribution.length > 0);
+  for (const cause of attribution) assert.deepEqual(carried[cause.name], [cause.share, cause.maximum_without]);
+  assert.deepEqual(left, [[explanation.maximum], ...attribution.map((cause) => [cause.maximum_left])]);
+  assert.deepEqual(await faultsOf(page), []);
+  assert.deepEqual(complaints, []);
+  await shoot(page, "attribution");
+  await page.context().close();
+});
+
 /** How much of the replay's picture is about as orange as a plume. */
 const plumePixels = (page) => page.evaluate(() => {
   const stage = document.querySelector(".stage canvas");

@@ -6,6 +6,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "runtime/report/attribution_table.h"
 #include "runtime/report/html/assets.h"
 #include "runtime/report/html/base64.h"
 #include "runtime/report/html/page_data.h"
@@ -60,6 +61,12 @@ std::string verdict_words(const Report& report) {
       break;
   }
   return "Not judged";
+}
+
+/// As the terminal shows it.
+std::string plain_text(const Report& report) {
+  if (report.attribution) return attribution_table(report, false);
+  return report.study ? study_table(report, false) : report_table(report.members.front(), false);
 }
 
 /// Each `@PLACE@` once, so that nothing that is filled in is looked at again.
@@ -119,8 +126,7 @@ std::string report_html(const Report& report) {
   places["DESCRIPTION"] = html_escaped(first.bundle.model.description);
   places["VERDICT"] = verdict_words(report);
   places["VERDICT_KEY"] = verdict_name(report.verdict());
-  places["PLAIN"] =
-      html_escaped(report.study ? study_table(report, false) : report_table(first, false));
+  places["PLAIN"] = html_escaped(plain_text(report));
   places["DYGRAPHS_LICENCE"] = html_escaped(assets::dygraphs_licence());
   places["THREE_LICENCE"] = html_escaped(assets::three_licence());
   places["DATA"] = page_data(report);

@@ -121,6 +121,7 @@ function compose() {
   put("setting", [page.vehicle, page.plan].join(" · "));
   main.append(...[
     ...part("The study", () => page.is_study ? studySections() : []),
+    ...part("Why they differ", () => [attributionSection()]),
     ...part("Agreement", () => [...engineRemarks(first), agreementSection(first)]),
     ...part("References", () => [referenceSection(first)]),
     ...part("Conservation", () => [conservationSection(first)]),

@@ -13,15 +13,16 @@ function rulerScale(metrics) {
   return { low: Math.max(low, -16), high: Math.min(high, 16) };
 }
 
-/** @param {Metric} metric @param {{low: number, high: number}} scale */
-function ruler(metric, scale) {
+/** @param {Metric} metric @param {{low: number, high: number}} scale
+ *  @param {string} limit what `tolerance` is */
+function ruler(metric, scale, limit = "the tolerance") {
   if (!metric.tolerance || metric.max === null) return html("span");
   const width = 240;
   /** @param {number} decade */
   const x = (decade) => 6 + (width - 12) * (Math.min(Math.max(decade, scale.low), scale.high) - scale.low) / (scale.high - scale.low);
   const decade = metric.max === 0 ? scale.low : Math.log10(metric.max / metric.tolerance);
   const said = metric.max === 0 ? "no difference at all"
-    : `${written(metric.max / metric.tolerance)} of the tolerance`;
+    : `${written(metric.max / metric.tolerance)} of ${limit}`;
   const ticks = [];
   for (let d = scale.low; d <= scale.high; d += 1)
     ticks.push(svg("line", { class: "axis", x1: x(d), x2: x(d), y1: 8, y2: 14 }));
