@@ -17,8 +17,9 @@ Vector3d sorted_moments(const Matrix3d& I) {
   return moments;
 }
 
+/// To twelve digits: what comes after them is rounding of the eigenvalues.
 std::string list(const Vector3d& v) {
-  return fmt::format("[{}, {}, {}]", shortest(v[0]), shortest(v[1]), shortest(v[2]));
+  return fmt::format("[{:.12g}, {:.12g}, {:.12g}]", v[0], v[1], v[2]);
 }
 
 }  // namespace

@@ -147,6 +147,7 @@ Json engine_timing_json(const EngineTiming& timing) {
   if (timing.trials.empty()) return json;
   json["median_s"] = timing.median();
   json["us_per_step"] = 1.0e6 * timing.per_step();
+  json["spread_relative"] = timing.spread();
   return json;
 }
 

@@ -111,6 +111,11 @@ std::string conservation_block(const Member& result) {
   return text;
 }
 
+std::string scatter_words(const EngineTiming& timing) {
+  if (!(timing.spread() > kScattered)) return {};
+  return fmt::format("trials scatter by {:.0f} %: no ratio", 100.0 * timing.spread());
+}
+
 std::string cost_block(const Member& result) {
   if (!result.timing || !result.timing->complete() || result.timing->engines.empty()) return {};
   std::string text = row("cost", "per step", "whole run", "evaluations");
@@ -120,7 +125,7 @@ std::string cost_block(const Member& result) {
     const EngineRun& run = result.engines[is_mujoco ? 1 : 0];
     text += row(indented(engine_label(timing.name)), duration(timing.per_step()),
                 duration(timing.median()), fmt::format("{}", run.trajectory.counts.evaluations),
-                is_mujoco && ratio ? fmt::format("{:.3g}x", 1.0 / *ratio) : "");
+                is_mujoco && ratio ? fmt::format("{:.3g}x", 1.0 / *ratio) : scatter_words(timing));
   }
   return text;
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <numeric>
 
 #include "runtime/study/propagate.h"
@@ -33,6 +34,13 @@ double EngineTiming::per_step() const {
   return steps == 0 ? 0.0 : median() / static_cast<double>(steps);
 }
 
+double EngineTiming::spread() const {
+  const double middle = median();
+  std::vector<double> distances;
+  for (const double trial : trials) distances.push_back(std::abs(trial - middle));
+  return twincraft::median(distances) / middle;
+}
+
 std::string protocol(const Timing& timing) {
   return fmt::format("warmup=1 trials={} interleaved reversed", timing.planned_trials);
 }
@@ -52,6 +60,7 @@ bool Timing::complete() const {
 
 std::optional<double> Timing::ratio() const {
   if (engines.size() != 2 || planned_trials == 0 || !complete()) return std::nullopt;
+  if (std::max(engines[0].spread(), engines[1].spread()) > kScattered) return std::nullopt;
   return engines[0].median() / engines[1].median();
 }
 

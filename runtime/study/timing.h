@@ -27,7 +27,11 @@ struct EngineTiming {
 
   double median() const;    // [s] @pre trials is not empty
   double per_step() const;  // [s] median over steps
+  double spread() const;    // half of the trials are within this part of the median
 };
+
+/// A larger spread says more of what else the machine did than of the engine.
+inline constexpr double kScattered = 0.5;
 
 struct Timing {
   int planned_trials = 0;
@@ -37,7 +41,7 @@ struct Timing {
   bool complete() const;
 
   /// Median of the first engine over that of the second (BSM over MuJoCo); nothing unless there are
-  /// two, each with all its trials.
+  /// two, each with all its trials, and these are not scattered.
   std::optional<double> ratio() const;
 };
 

@@ -215,6 +215,12 @@ class Signals(Faults):
             self.assertIs(report["complete"], False)
             self.assertFalse([name for name in self.files() if name.endswith(".tmp")])
 
+    def test_a_second_signal_does_not_wait_and_leaves_nothing_half_written(self):
+        self.assertIn(self.interrupted(signal.SIGINT, times=2), (130, -signal.SIGINT))
+        report = self.folder / "out/report.json"
+        if report.exists():
+            self.assertIs(json.loads(report.read_text())["complete"], False)
+
     def test_after_a_kill_the_next_run_works(self):
         self.assertEqual(self.interrupted(signal.SIGKILL), -signal.SIGKILL)
         run = self.run_in([SCSIM, QUICKSTART, "-o", "out", "--quiet", *SHORT])

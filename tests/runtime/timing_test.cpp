@@ -79,6 +79,16 @@ TEST(Ratio, IsTheFirstEngineOverTheSecond) {
   EXPECT_EQ(timing.ratio(), 0.25);
 }
 
+TEST(Ratio, IsRefusedWhenTrialsScatter) {
+  Timing timing{5,
+                {{"bsm", {1.0, 1.1, 1.0, 5.0, 9.0}, 1}, {"mujoco", {4.0, 4.0, 4.0, 4.0, 4.0}, 1}}};
+  EXPECT_NEAR(timing.engines[0].spread(), 0.1 / 1.1, 1.0e-15);  // two outliers change little
+  EXPECT_TRUE(timing.ratio().has_value());
+  timing.engines[0].trials = {1.0, 2.0, 4.0, 8.0, 16.0};
+  EXPECT_DOUBLE_EQ(timing.engines[0].spread(), 0.75);
+  EXPECT_FALSE(timing.ratio().has_value());
+}
+
 TEST(Ratio, OfOneEngineDoesNotExist) {
   const Timing timing{1, {{"bsm", {1.0}, 1}}};
   EXPECT_FALSE(timing.ratio().has_value());

@@ -112,7 +112,8 @@ function costSection(member) {
   });
   const ratio = timing.ratio_bsm_over_mujoco;
   return section("Cost",
-    ratio ? html("p", {}, `MuJoCo takes ${written(1 / ratio, 3)} times as long as BSM.`) : null,
+    ratio ? html("p", {}, `MuJoCo takes ${written(1 / ratio, 3)} times as long as BSM.`)
+      : timed.length === 2 ? note("The trials are too scattered for a ratio: the machine had other work.") : null,
     table("Cost", [textCell("engine"), textCell("per step", "number"), textCell("whole run, median", "number"),
       textCell("trials", "number"), textCell("steps", "number"), textCell("evaluations", "number")], rows),
     note(`Protocol: ${timing.protocol}.`));
