@@ -268,10 +268,10 @@ Trajectory propagate(Engine& engine, const Model& model, const PropagateOptions&
   return trajectory;
 }
 
-StepCounts propagate_bare(Engine& engine, const Model& model) {
+StepCounts propagate_bare(Engine& engine, const Model& model, const std::atomic<bool>* stop) {
   EngineOde ode(engine);
   Run run(engine, ode, model);
-  while (!run.done()) run.advance();
+  while (!run.done() && !(stop != nullptr && *stop)) run.advance();
   return run.counts();
 }
 

@@ -44,6 +44,8 @@ struct PropagateOptions {
 Trajectory propagate(Engine& engine, const Model& model, const PropagateOptions& options = {});
 
 /// The bare run that is timed: no records, no books. @throws NumericalFailure
-StepCounts propagate_bare(Engine& engine, const Model& model);
+/// @param stop  ends it early once it is set
+StepCounts propagate_bare(Engine& engine, const Model& model,
+                          const std::atomic<bool>* stop = nullptr);
 
 }  // namespace twincraft

@@ -93,7 +93,7 @@ Timing time_member(const Bundle& bundle, const std::vector<EngineRun>& engines,
   std::vector<TimedEngine> contestants;
   for (const EngineRun& engine : engines)
     if (ran_through(engine))
-      contestants.push_back(bare_run(build(engine.name, bundle), bundle.model));
+      contestants.push_back(bare_run(build(engine.name, bundle), bundle.model, options.stop));
   return time_engines(contestants, options.trials, [&options](int done, int planned) {
     show(options, "timing", static_cast<double>(done) / planned);
     return !stopped(options);

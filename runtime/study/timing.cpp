@@ -15,8 +15,10 @@ namespace {
 
 void run_trial(const TimedEngine& engine, EngineTiming& timing) {
   const auto begin = std::chrono::steady_clock::now();
-  timing.steps = engine.run();
+  const std::size_t steps = engine.run();
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
+  if (steps == 0) return;
+  timing.steps = steps;
   timing.trials.push_back(elapsed.count());
 }
 
@@ -45,10 +47,13 @@ std::string protocol(const Timing& timing) {
   return fmt::format("warmup=1 trials={} interleaved reversed", timing.planned_trials);
 }
 
-TimedEngine bare_run(std::shared_ptr<Engine> engine, const Model& model) {
+TimedEngine bare_run(std::shared_ptr<Engine> engine, const Model& model,
+                     const std::atomic<bool>* stop) {
   std::string name(engine->name());
-  return {std::move(name), [engine = std::move(engine), &model] {
-            return static_cast<std::size_t>(propagate_bare(*engine, model).accepted);
+  return {std::move(name), [engine = std::move(engine), &model, stop] {
+            const auto steps =
+                static_cast<std::size_t>(propagate_bare(*engine, model, stop).accepted);
+            return stop != nullptr && *stop ? 0 : steps;
           }};
 }
 

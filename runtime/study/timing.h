@@ -4,6 +4,7 @@
 // Tested by tests/runtime/timing_test.cpp.
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -17,7 +18,7 @@ namespace twincraft {
 /// One contestant: what is built once and then run again and again.
 struct TimedEngine {
   std::string name;                  // "bsm"
-  std::function<std::size_t()> run;  // one bare run; @return how many steps it took
+  std::function<std::size_t()> run;  // one bare run; @return how many steps it took, 0 if stopped
 };
 
 struct EngineTiming {
@@ -54,7 +55,9 @@ using MayGoOn = std::function<bool(int done, int planned)>;
 Timing time_engines(const std::vector<TimedEngine>& engines, int trials, const MayGoOn& may_go_on);
 
 /// The contestant that propagates `model` without records or books.
-TimedEngine bare_run(std::shared_ptr<Engine> engine, const Model& model);
+/// @param stop  ends a run once it is set; what it took then is no trial
+TimedEngine bare_run(std::shared_ptr<Engine> engine, const Model& model,
+                     const std::atomic<bool>* stop = nullptr);
 
 /// `warmup=1 trials=5 interleaved reversed`
 std::string protocol(const Timing& timing);

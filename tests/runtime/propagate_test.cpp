@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 #include <limits>
 
@@ -85,6 +86,14 @@ TEST(Propagate, RecordsTheFirstStepEndAfterARecordTimeThatIsNoMultiple) {
   const Trajectory trajectory = propagate(engine, model);
   EXPECT_THAT(sample_times(trajectory), ElementsAre(0.0, 0.5, 1.0));
   EXPECT_EQ(trajectory.counts.accepted, 4) << "a step was split for a record";
+}
+
+TEST(Propagate, EndsABareRunWhenTold) {
+  const Model model = toy_model();
+  ToyEngine engine(model);
+  std::atomic<bool> stop = false;
+  engine.mischief = [&stop](double time, auto) { stop = time > 0.37; };
+  EXPECT_EQ(propagate_bare(engine, model, &stop).accepted, 4);
 }
 
 TEST(Propagate, CountsStepsAndEvaluationsOfAFixedStepMethod) {

@@ -68,6 +68,16 @@ TEST_F(Protocol, MeasuresTheRunAndNothingElse) {
   EXPECT_DOUBLE_EQ(timing.engines[0].per_step(), timing.engines[0].median() / 10.0);
 }
 
+TEST_F(Protocol, CountsNoTrialThatWasStopped) {
+  int runs = 0;
+  const std::vector<TimedEngine> impatient{
+      {"bsm", [&runs] { return ++runs < 3 ? std::size_t{10} : std::size_t{0}; }}};
+  const Timing timing = time_engines(impatient, 5, always);
+  EXPECT_EQ(timing.engines[0].trials.size(), 1u);  // after the warm-up
+  EXPECT_EQ(timing.engines[0].steps, 10u);
+  EXPECT_FALSE(timing.complete());
+}
+
 TEST_F(Protocol, LetsAFailureThrough) {
   const std::vector<TimedEngine> broken{
       {"bsm", []() -> std::size_t { throw NumericalFailure("not finite"); }}};
