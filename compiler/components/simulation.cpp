@@ -14,6 +14,8 @@ namespace {
 
 constexpr double kMostSteps = 1e12;
 constexpr double kMostSamples = 1e7;
+// What an engine's samples may take: some gigabytes, of a machine that runs two engines [B].
+constexpr double kMostSampleBytes = 6e9;
 constexpr double kSamples = 200.0;               // of a run without `record`
 constexpr double kWholeStepsTolerance = 1.0e-9;  // relative: durations are written in decimals
 
@@ -149,16 +151,19 @@ void check_step(const SimulationSpec& simulation, double step, Diagnostics& diag
   }
 }
 
-/// A sample holds the whole state of both engines.
-void check_record(const SimulationSpec& simulation, double step, Diagnostics& diagnostics) {
+/// A sample holds the whole state: some fifty numbers, and two of each joint.
+void check_record(const SimulationSpec& simulation, double step, int coordinates,
+                  Diagnostics& diagnostics) {
   if (!simulation.record) return;
+  const double sample_bytes = 400.0 + 16.0 * coordinates;
+  const double most = std::min(kMostSamples, std::floor(kMostSampleBytes / sample_bytes));
   const double samples = simulation.duration / std::max(*simulation.record, step);
-  if (samples <= kMostSamples) return;
+  if (samples <= most) return;
   diagnostics
       .error(Code::kTooManySteps, simulation.span_of("record"),
-             fmt::format("{:.3g} samples would be recorded, more than {:g}", samples, kMostSamples))
+             fmt::format("{:.3g} samples would be recorded, more than {:.3g}", samples, most))
       .with_hint(
-          fmt::format("raise `record` to {:.3g} s or more", simulation.duration / kMostSamples));
+          fmt::format("raise `record` to {:.3g} s or more", 1.01 * simulation.duration / most));
 }
 
 Tolerance parts(const ToleranceSpec& spec) {
@@ -249,13 +254,13 @@ double step_of(const SimulationSpec& simulation, const std::vector<Oscillator>& 
 }
 
 void check(const SimulationSpec& simulation, const std::vector<Oscillator>& oscillators,
-           Diagnostics& diagnostics) {
+           int coordinates, Diagnostics& diagnostics) {
   check_tolerances(simulation, diagnostics);
   const StepRule* rule = std::get_if<StepRule>(&simulation.step);
   if (rule != nullptr && !check_rule(*rule, oscillators, diagnostics)) return;
   const double step = step_of(simulation, oscillators);
   check_step(simulation, step, diagnostics);
-  check_record(simulation, step, diagnostics);
+  check_record(simulation, step, coordinates, diagnostics);
 }
 
 SimulationPlan lower(const SimulationSpec& simulation, const std::vector<Oscillator>& oscillators) {

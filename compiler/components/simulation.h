@@ -70,8 +70,9 @@ double step_of(const SimulationSpec& simulation, const std::vector<Oscillator>& 
 
 /// Steps must be shorter than the run, rules must find something with a period, and tolerances must
 /// be reachable in double precision. A step that does not divide the duration is a warning.
+/// @param coordinates  of joints and wheels: what a record is a record of
 void check(const SimulationSpec& simulation, const std::vector<Oscillator>& oscillators,
-           Diagnostics& diagnostics);
+           int coordinates, Diagnostics& diagnostics);
 
 SimulationPlan lower(const SimulationSpec& simulation, const std::vector<Oscillator>& oscillators);
 

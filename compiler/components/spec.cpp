@@ -12,6 +12,10 @@ namespace {
 
 constexpr const char* kFormat = "spacecraft/1";
 
+// A vehicle of this size takes seconds to compile and milliseconds a step; a slip in a number of
+// segments, or malice, would fill the memory.
+constexpr int kMostCoordinates = 10'000;
+
 constexpr const char* kExtendsDoc =
     "Another spec that this one starts from: a path from the folder of this file. Maps merge by "
     "key and lists of named members by `name`; other values and lists replace what they meet, and "
@@ -38,6 +42,29 @@ Names named_components(const Spec& spec, Diagnostics& diagnostics) {
   add(spec.thrusters, "thruster");
   add(spec.loads, "load");
   return names;
+}
+
+/// Joints and wheels, summed up to the first component with which they are too many.
+struct Size {
+  int coordinates = 0;
+  std::optional<Span> too_many_at = {};
+
+  void add(int count, Span span) {
+    if (too_many_at) return;
+    coordinates += count;
+    if (coordinates > kMostCoordinates) too_many_at = span;
+  }
+};
+
+Size size_of(const Spec& spec) {
+  Size size;
+  for (const WheelSpec& wheel : spec.wheels) size.add(1, wheel.span_of("name"));
+  for (const PanelSpec& panel : spec.panels) size.add(panel.segments, panel.span_of("segments"));
+  for (const BodySpec& body : spec.bodies) size.add(1, body.span_of("name"));
+  for (const SloshSpec& slosh : spec.slosh)
+    size.add(std::holds_alternative<PendulumSpec>(slosh) ? 2 : 1,
+             common(slosh).written.span_of("name"));
+  return size;
 }
 
 /// What is drawn from the tanks, and what sloshes in them, is there.
@@ -165,6 +192,13 @@ bool check_format(const Node& root, Diagnostics& diagnostics) {
 }
 
 void check(const Spec& spec, Diagnostics& diagnostics) {
+  const Size size = size_of(spec);
+  if (size.too_many_at) {
+    diagnostics.error(
+        Code::kTooManyParts, *size.too_many_at,
+        fmt::format("here the vehicle gets more than {} joints and wheels", kMostCoordinates));
+    return;
+  }
   const Names names = named_components(spec, diagnostics);
   check(spec.hub, diagnostics);
   for (const WheelSpec& wheel : spec.wheels) check(wheel, names, diagnostics);
@@ -177,7 +211,7 @@ void check(const Spec& spec, Diagnostics& diagnostics) {
   for (const LoadSpec& load : spec.loads) check(load, names, diagnostics);
   if (!diagnostics.has_errors()) check_tanks(spec, diagnostics);
   check(spec.initial, spec.environment, diagnostics);
-  check(spec.simulation, oscillators(spec), diagnostics);
+  check(spec.simulation, oscillators(spec), size.coordinates, diagnostics);
   check(spec.engines, spec.environment, diagnostics);
   if (spec.stored)
     check(*spec.stored, names_stored(spec), spec.environment, spec.simulation.duration,
