@@ -219,6 +219,7 @@ class StudyOfSpec : public Study {
   }
 
   const StudyPlan& plan() const override { return members_.plan; }
+  const Node& base() const { return base_; }
   std::vector<Override> changes(std::size_t index) const { return members_.overrides(index); }
 
   std::optional<Bundle> compile(std::size_t index, Diagnostics& diagnostics) const override {
@@ -271,10 +272,23 @@ Diagnostic in_member(Diagnostic fault, std::size_t index, const std::vector<Over
   return fault;
 }
 
+// Checking takes about a microsecond for every three of these units: some seconds in all.
+constexpr std::size_t kCheckedWork = 10'000'000;
+
+std::size_t count_values(const Node& node) {
+  std::size_t count = 1;
+  for (const Node& item : node.items) count += count_values(item);
+  return count;
+}
+
 /// What is wrong with the members beyond what is wrong with the spec itself, each fault once.
-void check_members(const StudyOfSpec& study, Span span, Diagnostics& diagnostics) {
+void check_members(const StudyOfSpec& study, std::size_t coordinates, Span span,
+                   Diagnostics& diagnostics) {
   const std::size_t members = study.plan().members;
-  for (std::size_t i = 0; i < std::min(members, kCheckedMembers); ++i) {
+  const std::size_t work = count_values(study.base()) + 10 * coordinates;
+  const std::size_t checked =
+      std::min({members, kCheckedMembers, std::max<std::size_t>(1, kCheckedWork / work)});
+  for (std::size_t i = 0; i < checked; ++i) {
     Diagnostics of_member;
     study.check(i, of_member);
     for (const Diagnostic& fault : of_member.all()) {
@@ -284,10 +298,10 @@ void check_members(const StudyOfSpec& study, Span span, Diagnostics& diagnostics
     }
     if (diagnostics.error_count() >= kEnoughFaults) return;
   }
-  if (members > kCheckedMembers)
-    diagnostics.note(Code::kStudyNotChecked, span,
-                     fmt::format("the first {} of the study's {} members were checked",
-                                 kCheckedMembers, members));
+  if (members > checked)
+    diagnostics.note(
+        Code::kStudyNotChecked, span,
+        fmt::format("the first {} of the study's {} members were checked", checked, members));
 }
 
 }  // namespace
@@ -308,7 +322,7 @@ CompileResult compile(const CompileRequest& request, Sources& sources, Diagnosti
   if (const std::optional<StudySpec>& spec = compiled->spec.study) {
     auto study = std::make_unique<StudyOfSpec>(*root, members_of(*spec, diagnostics).value(),
                                                changes, origin);
-    check_members(*study, spec->span(), diagnostics);
+    check_members(*study, compiled->model.coordinates.size(), spec->span(), diagnostics);
     if (diagnostics.has_errors()) return {};
     result.study = std::move(study);
   }

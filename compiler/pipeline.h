@@ -45,7 +45,8 @@ class Variants {
                                         Diagnostics& diagnostics) const = 0;
 };
 
-/// So many members of a study are checked by compile(); a larger study gets a note that says so.
+/// So many members of a study are checked by compile(), fewer of a large spec; a larger study gets
+/// a note that says so.
 inline constexpr std::size_t kCheckedMembers = 10'000;
 
 struct CompileResult {
