@@ -247,8 +247,8 @@ const Table<StudySpec>& study_table() {
   static const Table<StudySpec> table = Table<StudySpec>{
       "study",
       "Many runs of this spec that differ in the values at a few paths. `scsim` runs all "
-      "members; `sccompile` checks them (the first 10000, fewer of a large spec) and emits the spec "
-      "itself.",
+      "members; `sccompile` checks them (the first 10000, fewer of a large spec) and emits the "
+      "spec itself.",
       {
           optional("sweep", &StudySpec::sweep, list_of(object(sweep_table()), 1),
                    "Paths and their values."),
