@@ -12,8 +12,8 @@ namespace {
 
 constexpr const char* kFormat = "spacecraft/1";
 
-// A vehicle of this size takes seconds to compile and milliseconds a step; a slip in a number of
-// segments, or malice, would fill the memory.
+// A vehicle of this size takes a second or two to compile; a slip in a number of segments, or
+// malice, would fill the memory.
 constexpr int kMostCoordinates = 10'000;
 
 constexpr const char* kExtendsDoc =
@@ -194,9 +194,11 @@ bool check_format(const Node& root, Diagnostics& diagnostics) {
 void check(const Spec& spec, Diagnostics& diagnostics) {
   const Size size = size_of(spec);
   if (size.too_many_at) {
-    diagnostics.error(
-        Code::kTooManyParts, *size.too_many_at,
-        fmt::format("here the vehicle gets more than {} joints and wheels", kMostCoordinates));
+    diagnostics
+        .error(
+            Code::kTooManyParts, *size.too_many_at,
+            fmt::format("here the vehicle gets more than {} joints and wheels", kMostCoordinates))
+        .with_hint("check the numbers of `segments`");
     return;
   }
   const Names names = named_components(spec, diagnostics);
