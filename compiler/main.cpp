@@ -15,6 +15,7 @@
 #include "compiler/emit_dot.h"
 #include "compiler/output.h"
 #include "compiler/pipeline.h"
+#include "runtime/linear/resolution.h"
 #include "runtime/study/proof.h"
 
 namespace twincraft {
@@ -171,6 +172,13 @@ int write_results(const Bundle& bundle, const Options& options) {
   return kExitInputOutput;
 }
 
+/// Says what step the run would need, at the step that it has.
+void foresee(const CompileResult& result, Diagnostics& diagnostics) {
+  const Resolution foreseen = foresee_resolution(result.bundle->model);
+  if (foreseen.resolved) return;
+  diagnostics.warning(Code::kUnresolvedStep, result.step, foreseen.reasons.front());
+}
+
 int check(const Bundle& bundle, const Options& options) {
   const ProofReport proof = prove(bundle);
   if (options.diagnostics == "text") {
@@ -200,6 +208,7 @@ int run(const Options& options) {
     complain(result.io_error);
     return kExitInputOutput;
   }
+  if (options.check && result.bundle) foresee(result, diagnostics);
   judge_warnings(options.warnings, diagnostics);
   if (const int code = report(diagnostics, options); code != kExitDone) return code;
   if (is_bad_override(diagnostics)) return kExitUsage;

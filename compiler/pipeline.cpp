@@ -328,6 +328,7 @@ CompileResult compile(const CompileRequest& request, Sources& sources, Diagnosti
   }
   require_one_machine(compiled->model);
   result.variants = std::make_unique<VariantsOfSpec>(*root, changes, origin, sources);
+  result.step = compiled->spec.simulation.span_of("step");
   result.bundle = emit(std::move(compiled->model), compiled->spec, origin, changes);
   return result;
 }

@@ -54,6 +54,7 @@ struct CompileResult {
   std::string io_error = {};                // the file could not be read: exit code 3
   std::unique_ptr<const Study> study = {};  // when the spec has one
   std::unique_ptr<const Variants> variants = {};  // with the bundle
+  Span step = {};                                 // where the spec gives the step, with the bundle
 };
 
 /// The compiler contradicts itself: a bug of ours, with a text that asks to report it.

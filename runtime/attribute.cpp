@@ -129,6 +129,14 @@ int check_flown(const Member& result) {
   return result.failed() ? kExitFailure : kExitFindings;
 }
 
+/// Says why, if what was flown is not the vehicle's motion. @return the exit code
+int check_resolved(const Member& result) {
+  if (!result.unresolved()) return kExitDone;
+  complain(fmt::format("nothing to attribute: the run is unresolved: {}",
+                       result.resolution->reasons.front()));
+  return kExitFindings;
+}
+
 int exit_code(const Attribution& attribution) {
   if (const int interrupted = interrupt_exit_code(); interrupted != 0) return interrupted;
   if (attribution.complete) return kExitDone;
@@ -144,7 +152,9 @@ int explain(CompileResult compiled, const CommonOptions& options) {
   report.members.push_back(run_one(without_references(std::move(compiled.bundle)), run));
   const ReportedMember& member = report.members.front();
   bar.clear();
-  if (const int code = check_flown(member.result); code != kExitDone) {
+  int code = check_flown(member.result);
+  if (code == kExitDone) code = check_resolved(member.result);
+  if (code != kExitDone) {
     const int written = write_report(report, options);
     return written != kExitDone ? written : code;
   }

@@ -127,7 +127,9 @@ int exit_code(const Report& report) {
   if (const int interrupted = interrupt_exit_code(); interrupted != 0) return interrupted;
   const int failed = complain_of_failures(report);
   if (failed != kExitDone) return failed;
-  return report.verdict() == Verdict::kDisagree ? kExitFindings : kExitDone;
+  const Verdict verdict = report.verdict();
+  const bool finds = verdict == Verdict::kDisagree || verdict == Verdict::kUnresolved;
+  return finds ? kExitFindings : kExitDone;
 }
 
 MemberSpec compile_member(const Study& study, std::size_t index) {

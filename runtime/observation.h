@@ -22,7 +22,10 @@ struct Observation {
   // The books of conservation, of the engine's own masses.
   double kinetic = 0.0;    // [J] in N
   double potential = 0.0;  // [J] springs; gravity as -sum mu m/r (system_com: of all mass at C)
-  Vector3d momentum;       // [kg m/s] in N
+  // The vehicle's own motion: what an orbit does not hide.
+  double own_kinetic = 0.0;  // [J] about C
+  double springs = 0.0;      // [J]
+  Vector3d momentum;         // [kg m/s] in N
   Vector3d H_PntC_N;       // [kg m^2/s] angular momentum about C
   // Sums of the magnitudes of what is added up (momentum: of the hub origin's velocity and of each
   // body's beyond it): what "relative" means for a total near zero.
@@ -35,6 +38,7 @@ struct ExternalRates {
   double power = 0.0;  // [W] efforts, motors, loads, gradient torques, minus damping
   Vector3d force_N = Vector3d::Zero();        // [N] gravity included
   Vector3d torque_PntC_N = Vector3d::Zero();  // [N m] about C
+  double own_power = 0.0;  // [W] what works on the own motion: gravity's differences included
 };
 
 }  // namespace twincraft

@@ -243,6 +243,11 @@ const Table<SimulationSpec>& simulation_table() {
           optional("record", &SimulationSpec::record, maybe(quantity("s", Range::kPositive)),
                    "Interval of recorded samples; below `step` every step is recorded. Default: "
                    "whole steps, about 200 samples."),
+          optional("resolution", &SimulationSpec::judges_resolution,
+                   one_of<bool>({{"judge", true}, {"report", false}}),
+                   "`judge` (default): a step or tolerance that does not resolve the vehicle's own "
+                   "motion makes the verdict `unresolved`, whatever the engines agree on. "
+                   "`report`: it is said and does not touch the verdict."),
       }};
   return table;
 }
@@ -271,6 +276,7 @@ SimulationPlan lower(const SimulationSpec& simulation, const std::vector<Oscilla
   plan.duration = simulation.duration;
   plan.record = simulation.record.value_or(default_record(plan.step, plan.duration));
   plan.tolerance = tolerances(simulation);
+  plan.judges_resolution = simulation.judges_resolution;
   return plan;
 }
 

@@ -61,6 +61,7 @@ struct SimulationSpec : Written {
   std::variant<BlockTolerancesSpec, double> tolerance{kDefaultTolerance};
   double duration = 10.0;        // [s]
   std::optional<double> record;  // [s] absent: about 200 samples
+  bool judges_resolution = true;
 };
 
 const Table<SimulationSpec>& simulation_table();

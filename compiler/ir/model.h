@@ -78,6 +78,7 @@ struct SimulationPlan {
   double step = 0.0;      // [s] fixed step, or the interval an adaptive method always lands on
   double duration = 0.0;  // [s]
   double record = 0.0;    // [s]
+  bool judges_resolution = true;  // false: what does not resolve the vehicle is said, not judged
   BlockTolerances tolerance;
 };
 

@@ -92,6 +92,7 @@ void fill_books(const Totals& totals, const Matrix3d& dcm_NB, Observation& o) {
   o.momentum = totals.mass * o.v_CN_N;
   o.H_PntC_N = dcm_NB * totals.H_PntC_B;
   o.kinetic = 0.5 * totals.mass * o.v_CN_N.squaredNorm() + totals.kinetic;
+  o.own_kinetic = totals.kinetic;
   o.momentum_scale = totals.momentum_scale + totals.mass * o.v_BN_N.norm();
   o.H_scale = totals.H_scale;
 }

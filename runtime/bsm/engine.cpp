@@ -94,7 +94,8 @@ class BsmEngine final : public Engine {
     o.wheel_rate.assign(x.rotor_speed.begin(), x.rotor_speed.end());
     const Motion motion = motion_of(plan_.tree, x.q, x.q_dot, x.omega_BN_B);
     fill_books(sum_up(motion, assembly_, shares_, x.rotor_speed), x.dcm_NB, o);
-    o.potential = spring_energy(plan_.tree, x.q) +
+    o.springs = spring_energy(plan_.tree, x.q);
+    o.potential = o.springs +
                   forces_.potential(x.dcm_NB.transpose() * x.r_BN_N, motion.poses);
     o.q_BN = x.q_BN;
     if (o.q_BN.w() < 0.0) o.q_BN.coeffs() = -o.q_BN.coeffs();
@@ -117,8 +118,11 @@ class BsmEngine final : public Engine {
       force_B += wrench.force_W;
       torque_PntC_B += wrench.torque_PntB_W - totals.r_CB_B.cross(wrench.force_W);
     }
-    double power = joint_power(plan_.tree, x.q, x.q_dot, held_.effort) +
-                   motor_power(x.rotor_speed, held_.motor_torque);
+    const double inner_power = joint_power(plan_.tree, x.q, x.q_dot, held_.effort) +
+                               motor_power(x.rotor_speed, held_.motor_torque);
+    double power = inner_power;
+    const Vector3d v_CB_B = totals.momentum_B / totals.mass;
+    double own_power = inner_power + work_rate(wrenches, motion.poses, motion.rates, v_CB_B);
     Leaving leaving;
     if (!propellant_.is_idle()) {
       const std::span<const double> share_rates = propellant_.share_rates();
@@ -126,12 +130,14 @@ class BsmEngine final : public Engine {
       power += leaving.kinetic + leaving.momentum_B.dot(v_BN_B) +
                0.5 * leaving.mass * v_BN_B.squaredNorm() +
                forces_.potential_rate(r_BN_B, motion.poses, share_rates);
+      own_power += leaving.kinetic - leaving.momentum_B.dot(v_CB_B) +
+                   0.5 * leaving.mass * v_CB_B.squaredNorm();
     }
     for (LinkRate& rate : motion.rates) rate.v_LN_W += v_BN_B;
     power += forces_.power(r_BN_B, motion.poses, motion.rates);
     return {power,
             x.dcm_NB * (force_B + leaving.momentum_B) + totals.mass * g_N + leaving.mass * x.v_BN_N,
-            x.dcm_NB * (torque_PntC_B + leaving.H_PntC_B)};
+            x.dcm_NB * (torque_PntC_B + leaving.H_PntC_B), own_power};
   }
 
   Eigen::MatrixXd mass_matrix(std::span<const double> state) override {

@@ -31,6 +31,17 @@ Vector3d gravity_difference(double mu, const Vector3d& r, const Vector3d& x) {
   return (-mu / (r2 * std::sqrt(r2))) * (x - shrink * (r + x));
 }
 
+double work_rate(std::span<const Wrench> wrenches, std::span<const LinkPose> links,
+                 std::span<const LinkRate> rates, const Vector3d& v_W) {
+  double power = 0.0;
+  for (std::size_t i = 0; i < wrenches.size(); ++i) {
+    const Vector3d& omega = rates[i].omega_LN_W;
+    const Vector3d v_B = rates[i].v_LN_W - omega.cross(links[i].r_LB_W);  // of its point at B
+    power += wrenches[i].force_W.dot(v_B - v_W) + wrenches[i].torque_PntB_W.dot(omega);
+  }
+  return power;
+}
+
 ForceModel::ForceModel(const Model& model, GravityLaw law,
                        const std::vector<std::vector<MassElement>>& elements, FieldFrame frame)
     : mu_(model.gravity.mu), law_(law), frame_(frame), loads_(model.loads) {

@@ -31,6 +31,11 @@ struct Wrench {
   Vector3d torque_PntB_W = Vector3d::Zero();  // [N m]
 };
 
+/// What wrenches do [W] to links that move like this, seen from a point that moves at `v_W` [m/s]
+/// in the same frame: the sum of force times velocity and torque times rate.
+double work_rate(std::span<const Wrench> wrenches, std::span<const LinkPose> links,
+                 std::span<const LinkRate> rates, const Vector3d& v_W);
+
 enum class FieldFrame { kFalling, kInertial };
 
 class ForceModel {

@@ -127,6 +127,11 @@ void RungeKutta::evaluate_stages(double time, double h) {
   }
 }
 
+void RungeKutta::restart(std::span<const double> state) {
+  std::ranges::copy(state, state_.value.begin());
+  state_.carry.setZero();
+}
+
 void RungeKutta::step(double time, double h) {
   evaluate_stages(time, h);
   solution_sum_.add_compensated(solution_sum_, h, stages_.data(), state_, state_);

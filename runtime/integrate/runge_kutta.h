@@ -32,6 +32,9 @@ class RungeKutta {
   const Tableau& tableau() const { return tableau_; }
   std::span<double> state() { return {state_.value.data(), static_cast<std::size_t>(size_)}; }
 
+  /// Start anew from `state`: nothing is carried over from earlier steps.
+  void restart(std::span<const double> state);
+
   /// Advance state() from `time` to `time + h` [s] by one step.
   void step(double time, double h);
 

@@ -104,8 +104,20 @@ StepControl::Verdict StepControl::judge_proposal(const RungeKutta& stepper) cons
   return verdict;
 }
 
+void StepControl::add_accepted(const RungeKutta& stepper, AcceptedErrors& accepted) const {
+  const Range& attitude = range_of(Block::kAttitude);
+  const Range& joint = range_of(Block::kJoint);
+  if (attitude.size > 0)
+    accepted.attitude +=
+        attitude_error(chart_, entries(stepper.proposal().subspan(attitude.begin, attitude.size)),
+                       entries(stepper.error().subspan(attitude.begin, attitude.size)));
+  accepted.joint.resize(joint.size);
+  for (std::size_t i = 0; i < joint.size; ++i)
+    accepted.joint[i] += std::abs(stepper.error()[joint.begin + i]);
+}
+
 double StepControl::advance(RungeKutta& stepper, double from, double to, StepCounts& counts,
-                            const std::atomic<bool>* stop) const {
+                            AcceptedErrors& accepted, const std::atomic<bool>* stop) const {
   const double exponent = stepper.tableau().control_exponent();
   const double smallest = 16.0 * std::numeric_limits<double>::epsilon() * std::abs(to);
   double time = from;
@@ -120,6 +132,7 @@ double StepControl::advance(RungeKutta& stepper, double from, double to, StepCou
     ++counts.driven_by[static_cast<std::size_t>(verdict.block)];
     const double next = h * step_factor(verdict.ratio, exponent);
     if (verdict.passes()) {
+      add_accepted(stepper, accepted);
       stepper.accept();
       ++counts.accepted;
       time = reaches_end ? to : time + h;

@@ -28,6 +28,13 @@ struct StepCounts {
   std::array<long, kBlocks> driven_by{};  // attempts in which this block had the largest error
 };
 
+/// What the accepted steps got wrong, by their own estimates, all added up: a bound of what the
+/// tolerance let pass.
+struct AcceptedErrors {
+  double attitude = 0.0;      // [rad]
+  std::vector<double> joint;  // [rad] or [m], one per joint
+};
+
 class StepControl {
  public:
   /// @param names  of the state's entries, for messages
@@ -46,7 +53,7 @@ class StepControl {
   /// reached, which is `to` unless `*stop` became true. @throws NumericalFailure when the step
   /// underflows
   double advance(RungeKutta& stepper, double from, double to, StepCounts& counts,
-                 const std::atomic<bool>* stop = nullptr) const;
+                 AcceptedErrors& accepted, const std::atomic<bool>* stop = nullptr) const;
 
  private:
   struct Range {
@@ -57,6 +64,8 @@ class StepControl {
   };
   double ratio(const Range& range, std::span<const double> state,
                std::span<const double> error) const;
+  void add_accepted(const RungeKutta& stepper, AcceptedErrors& accepted) const;
+  const Range& range_of(Block block) const { return ranges_[static_cast<std::size_t>(block)]; }
   Verdict judge_proposal(const RungeKutta& stepper) const;
   [[noreturn]] void fail(const RungeKutta& stepper, double time, const Verdict& verdict) const;
 

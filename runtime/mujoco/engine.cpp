@@ -77,7 +77,7 @@ class MujocoEngine final : public Engine {
   void drain(double time);
   void add_leaving(const Vector3d& r_BN_N, const Vector3d& v_BN_N, const MotionSums& sums,
                    ExternalRates& rates) const;
-  [[noreturn]] void fail(double time, std::span<const double> state, std::span<const double> rate);
+  [[noreturn]] void fail(std::span<const double> state, std::span<const double> rate);
   MotionSums move_to(std::span<const double> state);
   void gather_poses();
   void gather_rates(const Vector3d& v_BN_N);
@@ -186,11 +186,11 @@ void MujocoEngine::derivative(double time, std::span<const double> state, std::s
   const double sum =
       exchange_.take_back(state.data(), dcm_NW * Input(d->qacc) + fall_N, *d, rate.data());
   // A singular mass matrix only warns, and MuJoCo goes on with a made-up pivot.
-  if (!std::isfinite(sum) || d->warning[mjWARN_INERTIA].number > 0) fail(time, state, rate);
+  if (!std::isfinite(sum) || d->warning[mjWARN_INERTIA].number > 0) fail(state, rate);
 }
 
 // One bad entry spoils all accelerations, so the state is searched for the culprit first.
-void MujocoEngine::fail(double time, std::span<const double> state, std::span<const double> rate) {
+void MujocoEngine::fail(std::span<const double> state, std::span<const double> rate) {
   const auto bad = [](double value) { return !std::isfinite(value); };
   const mjWarningStat singular = std::exchange(data_->warning[mjWARN_INERTIA], {});
   std::string what;
@@ -204,7 +204,7 @@ void MujocoEngine::fail(double time, std::span<const double> state, std::span<co
     const auto r = std::ranges::find_if(rate, bad);
     what = exchange_.name(static_cast<int>(r - rate.begin())) + " has a rate that is not finite";
   }
-  throw NumericalFailure(fmt::format("mujoco: at t = {} s {}", shortest(time), what));
+  throw NumericalFailure(what);
 }
 
 void MujocoEngine::finish_step(std::span<double> state) {
@@ -263,7 +263,9 @@ Observation MujocoEngine::observe(double time, std::span<const double> state) {
   seen.wheel_rate = entries(layout.wheel(), layout.size());
   seen.mass = sums.mass;
   seen.kinetic = sums.kinetic;
-  seen.potential = passive_.spring_energy(*data_) + forces_.potential(seen.r_BN_N, poses_);
+  seen.own_kinetic = sums.own_kinetic;
+  seen.springs = passive_.spring_energy(*data_);
+  seen.potential = seen.springs + forces_.potential(seen.r_BN_N, poses_);
   seen.momentum = sums.momentum;
   seen.H_PntC_N = sums.H_PntC_N;
   seen.momentum_scale = sums.momentum_scale;
@@ -278,13 +280,15 @@ ExternalRates MujocoEngine::external_rates(double time, std::span<const double> 
   const Vector3d v_BN_N = Input(state.data() + StateLayout::velocity());
   gather_rates(v_BN_N);
   ExternalRates rates;
-  rates.power = joint_power() + forces_.power(r_BN_N, poses_, link_rates_);
+  rates.own_power = joint_power();
+  rates.power = rates.own_power + forces_.power(r_BN_N, poses_, link_rates_);
   std::ranges::fill(wrenches_, Wrench{});
   forces_.apply(r_BN_N, poses_, wrenches_);
   for (const Wrench& wrench : wrenches_) {
     rates.force_N += wrench.force_W;
     rates.torque_PntC_N += wrench.torque_PntB_W;
   }
+  rates.own_power += work_rate(wrenches_, poses_, link_rates_, sums.v_CN_N);
   rates.torque_PntC_N -= sums.r_CB_N.cross(rates.force_N);
   // What falls does so at C.
   rates.force_N += sums.mass * forces_.fall(r_BN_N, Matrix3d::Identity(), poses_);
@@ -300,6 +304,7 @@ void MujocoEngine::add_leaving(const Vector3d& r_BN_N, const Vector3d& v_BN_N,
   rates.force_N += left.momentum;
   rates.torque_PntC_N += left.H_PntC_N;
   rates.power += left.kinetic;
+  rates.own_power += left.own_kinetic;
   rates.power += forces_.potential_rate(r_BN_N, poses_, share_rates);
 }
 

@@ -63,6 +63,7 @@ MotionSums sum_motion(const mjModel& model, const mjData& data, const Vector3d& 
     sums.H_PntC_N += H_i;
     sums.H_scale += H_i.norm();
   }
+  sums.own_kinetic = internal;
   sums.kinetic = 0.5 * sums.mass * sums.v_CN_N.squaredNorm() + internal;
   return sums;
 }
@@ -76,8 +77,10 @@ LeavingSums leaving(const mjModel& model, const mjData& data, const Vector3d& v_
   const Vector3d v_iN_N = v_BN_N + center_velocity(data, loss.body);
   const Vector3d r_iC_N = Point(data.xipos + 3 * loss.body) - sums.r_CB_N;
   const Vector3d spin = loss.relative_rate * spin_momentum(model, data, loss.body, omega);
-  return {0.5 * (mass_rate * v_iN_N.squaredNorm() + omega.dot(spin)), mass_rate * v_iN_N,
-          mass_rate * r_iC_N.cross(v_iN_N - sums.v_CN_N) + spin};
+  const Vector3d v_iC_N = v_iN_N - sums.v_CN_N;
+  return {0.5 * (mass_rate * v_iN_N.squaredNorm() + omega.dot(spin)),
+          0.5 * (mass_rate * v_iC_N.squaredNorm() + omega.dot(spin)), mass_rate * v_iN_N,
+          mass_rate * r_iC_N.cross(v_iC_N) + spin};
 }
 
 }  // namespace twincraft

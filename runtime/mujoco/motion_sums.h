@@ -14,6 +14,7 @@ struct MotionSums {
   Vector3d r_CB_N = Vector3d::Zero();    // [m] system centre of mass from the hub origin
   Vector3d v_CN_N = Vector3d::Zero();    // [m/s]
   double kinetic = 0.0;                  // [J] in N
+  double own_kinetic = 0.0;              // [J] about C
   Vector3d momentum = Vector3d::Zero();  // [kg m/s] in N
   Vector3d H_PntC_N = Vector3d::Zero();  // [kg m^2/s]
   double momentum_scale = 0.0;           // sum of the bodies' magnitudes
@@ -27,6 +28,7 @@ MotionSums sum_motion(const mjModel& model, const mjData& data, const Vector3d& 
 /// What leaves the books because bodies lose mass: their rates at fixed motion.
 struct LeavingSums {
   double kinetic = 0.0;                  // [W] in N
+  double own_kinetic = 0.0;              // [W] about C
   Vector3d momentum = Vector3d::Zero();  // [N] in N
   Vector3d H_PntC_N = Vector3d::Zero();  // [N m]
 };

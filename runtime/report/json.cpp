@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "runtime/report/attribution_json.h"
+#include "runtime/report/resolution_json.h"
 
 namespace twincraft {
 namespace {
@@ -161,7 +162,8 @@ Json timing_json(const Timing& timing) {
 
 Json member_json(const ReportedMember& member) {
   const Member& result = member.result;
-  Json json{{"settings", settings_json(member.settings)},
+  Json json{{"verdict", verdict_name(result.verdict())},
+            {"settings", settings_json(member.settings)},
             {"emitted_sha256", member.bundle.emitted_sha256},
             {"resolved", resolved_json(member.bundle)}};
   for (const EngineRun& run : result.engines)
@@ -170,6 +172,7 @@ Json member_json(const ReportedMember& member) {
   if (result.comparison) json["same_sample_times"] = result.comparison->same_times;
   if (member.against) json["against"] = against_json(*member.against);
   json["references"] = references_json(result.references);
+  if (result.resolution) json["resolution"] = resolution_json(result);
   if (result.timing) json["timing"] = timing_json(*result.timing);
   return json;
 }
@@ -235,6 +238,7 @@ Json studies_json(const Report& report) {
   json["convergence"] = trends_json(results.convergence, "steps_s", "errors", "orders");
   json["scaling"] = trends_json(results.scaling, "degrees_of_freedom", "us_per_step", "exponents");
   json["slopes"] = trends_json(results.slopes, "values", "maxima", "slopes");
+  json["left_out"] = results.left_out;
   return json;
 }
 

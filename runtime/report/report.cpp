@@ -24,14 +24,28 @@ bool Report::complete() const {
                      [](const ReportedMember& member) { return member.result.complete; });
 }
 
+bool is_about_resolution(const StudyPlan& study) {
+  return study.is_work_precision || std::ranges::any_of(study.paths, [](const std::string& path) {
+           return path.starts_with("simulation.step") ||
+                  path.starts_with("simulation.integrator") ||
+                  path.starts_with("simulation.tolerance");
+         });
+}
+
 Verdict Report::verdict() const {
-  const auto is = [](Verdict verdict) {
-    return [verdict](const ReportedMember& member) { return member.result.verdict() == verdict; };
-  };
-  if (std::any_of(members.begin(), members.end(), is(Verdict::kDisagree)))
-    return Verdict::kDisagree;
-  const bool all_agree = std::all_of(members.begin(), members.end(), is(Verdict::kAgree));
-  return all_agree ? Verdict::kAgree : Verdict::kNotJudged;
+  const bool may_be_unresolved = study && is_about_resolution(*study);
+  const bool may_fail = study && study->is_work_precision;
+  for (const Verdict verdict : {Verdict::kInterrupted, Verdict::kFailed, Verdict::kUnresolved,
+                                Verdict::kDisagree, Verdict::kNotJudged}) {
+    if (verdict == Verdict::kUnresolved && may_be_unresolved) continue;
+    if (verdict == Verdict::kFailed && may_fail) continue;
+    if (std::ranges::any_of(members, [verdict](const ReportedMember& member) {
+          return member.result.verdict() == verdict;
+        }))
+      return verdict;
+  }
+  if (study && members.size() < study->members) return Verdict::kInterrupted;
+  return Verdict::kAgree;
 }
 
 std::vector<StudyPoint> study_points(const std::vector<ReportedMember>& members) {
@@ -47,9 +61,18 @@ std::vector<StudyPoint> study_points(const std::vector<ReportedMember>& members)
 StudyResults study_results(const Report& report) {
   if (!report.study) return {};
   const StudyPlan& plan = *report.study;
-  const std::vector<StudyPoint> points = study_points(report.members);
-  if (!plan.is_work_precision)
-    return {convergence_of(plan, points), scaling_of(plan, points), slopes_of(plan, points), {}};
+  std::vector<StudyPoint> points = study_points(report.members);
+  if (!plan.is_work_precision) {
+    const std::size_t all = points.size();
+    std::erase_if(points, [](const StudyPoint& point) {
+      return point.result->failed() || point.result->unresolved();
+    });
+    return {convergence_of(plan, points),
+            scaling_of(plan, points),
+            slopes_of(plan, points),
+            {},
+            all - points.size()};
+  }
   StudyResults results;
   if (points.size() == plan.members) results.work_precision = work_precision_of(points);
   return results;

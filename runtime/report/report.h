@@ -44,9 +44,13 @@ struct Report {
   std::optional<Attribution> attribution = {};
 
   bool complete() const;
-  /// kDisagree if any member disagrees; kAgree only if every member agrees.
+  /// The first that some member has of interrupted, failed, unresolved (unless the study is about
+  /// the step, the method or the tolerance), disagree, not judged; kAgree when none has one.
   Verdict verdict() const;
 };
+
+/// It sweeps the step, the method or the tolerance: coarse members are its subject.
+bool is_about_resolution(const StudyPlan& study);
 
 /// The members as a study looks at them; valid as long as `members` is not changed.
 std::vector<StudyPoint> study_points(const std::vector<ReportedMember>& members);
@@ -55,6 +59,7 @@ std::vector<StudyPoint> study_points(const std::vector<ReportedMember>& members)
 struct StudyResults {
   std::vector<Trend> convergence, scaling, slopes;
   std::vector<EngineWork> work_precision;
+  std::size_t left_out = 0;  // members of no trend: unresolved or failed
 };
 
 /// Nothing of a single run; nothing of work against precision unless all its members were run.

@@ -2,7 +2,6 @@
 // Tested by tests/runtime/sweep_test.cpp.
 #include "runtime/report/study_table.h"
 
-#include <fmt/color.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,6 +9,7 @@
 #include <functional>
 
 #include "runtime/report/columns.h"
+#include "runtime/report/verdict_words.h"
 #include "runtime/report/words.h"
 
 namespace twincraft {
@@ -89,22 +89,6 @@ std::string step_cell(const Member& member, std::string_view engine) {
 std::string ratio_cell(const Member& member) {
   const std::optional<double> ratio = member.timing ? member.timing->ratio() : std::nullopt;
   return ratio ? fmt::format("{:.3g}x", 1.0 / *ratio) : "-";
-}
-
-std::string verdict_cell(const Member& member) {
-  for (const EngineRun& run : member.engines)
-    if (run.status == EngineRun::Status::kFailed) return engine_label(run.name) + " failed";
-  if (member.refused) return "refused";
-  if (!member.complete) return "interrupted";
-  switch (member.verdict()) {
-    case Verdict::kAgree:
-      return "agree";
-    case Verdict::kDisagree:
-      return "DISAGREE";
-    case Verdict::kNotJudged:
-      break;
-  }
-  return "not judged";
 }
 
 std::string reference_cell(const ReportedMember& member, std::string_view engine) {
@@ -274,26 +258,6 @@ std::string work_precision_block(const Report& report) {
   return text;
 }
 
-std::string verdict_line(const Report& report, bool colour) {
-  const auto paint = [colour](std::string_view text, fmt::color shade) {
-    return colour ? fmt::format(fmt::fg(shade), "{}", text) : std::string(text);
-  };
-  if (report.study->is_work_precision) return "not judged; a work-precision study has no verdict";
-  for (const ReportedMember& member : report.members)
-    if (const std::string truth = member.result.exceeded_reference(); !truth.empty())
-      return paint(fmt::format("an engine is further from `{}` than allowed", truth),
-                   fmt::color::red);
-  switch (report.verdict()) {
-    case Verdict::kAgree:
-      return paint("the engines agree in every member", fmt::color::green);
-    case Verdict::kDisagree:
-      return paint("the engines disagree", fmt::color::red);
-    case Verdict::kNotJudged:
-      break;
-  }
-  return "not judged in every member";
-}
-
 }  // namespace
 
 std::string member_line(std::size_t index, const ReportedMember& member, const StudyPlan& plan) {
@@ -323,6 +287,9 @@ std::string study_table(const Report& report, bool colour) {
     text += trends_block("time of a step, exponent in the coordinates", results.scaling, report);
     text +=
         trends_block("difference of the engines, exponent in the value", results.slopes, report);
+    if (results.left_out > 0)
+      text += fmt::format("\n{} of {} members are left out of these: unresolved or failed\n",
+                          results.left_out, report.members.size());
   }
   return text + "\n" + verdict_line(report, colour) + "\n";
 }

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 
+#include "runtime/report/verdict_words.h"
 #include "runtime/report/words.h"
 
 namespace twincraft {
@@ -28,10 +29,17 @@ std::string paint(std::string_view text, fmt::color color, bool colour) {
   return colour ? fmt::format(fmt::fg(color), "{}", text) : std::string(text);
 }
 
-std::string result_words(std::optional<bool> pass, bool colour) {
-  if (!pass) return "";
+/// @param holds  what was compared is the whole run, and it is resolved: else nothing is ok
+std::string result_words(std::optional<bool> pass, bool holds, bool colour) {
+  if (!pass || (*pass && !holds)) return "";
   return *pass ? paint("ok", fmt::color::green, colour)
                : paint("EXCEEDED", fmt::color::red, colour);
+}
+
+bool holds_good(const Member& member) {
+  const Verdict verdict = member.verdict();
+  return verdict != Verdict::kFailed && verdict != Verdict::kInterrupted &&
+         verdict != Verdict::kUnresolved;
 }
 
 /// The mass is worth a line only when someone judges it or the engines differ.
@@ -54,7 +62,7 @@ std::string agreement_block(const ReportedMember& member, bool colour) {
     const std::string tolerance =
         metric.tolerance ? fmt::format("{:g} {}", *metric.tolerance, unit) : "-";
     text += row(indented(label), quantity(metric.maximum, unit), fmt::format("{:.2f} s", metric.at),
-                tolerance, result_words(metric.pass(), colour));
+                tolerance, result_words(metric.pass(), holds_good(member.result), colour));
   }
   return text;
 }
@@ -64,10 +72,11 @@ namespace {
 std::string engine_label(std::string_view engine) { return engine == "bsm" ? "BSM" : "MuJoCo"; }
 
 /// Empty for a reference that judges nothing.
-std::string tolerance_words(const Deviation& deviation, std::string_view unit, bool colour) {
+std::string tolerance_words(const Deviation& deviation, std::string_view unit, bool holds,
+                            bool colour) {
   if (!deviation.tolerance) return {};
   return fmt::format("{:<14} {}", fmt::format("{:g} {}", *deviation.tolerance, unit),
-                     result_words(deviation.pass(), colour));
+                     result_words(deviation.pass(), holds, colour));
 }
 
 std::string reference_label(const ReferenceRun& run, const Deviation& deviation,
@@ -91,7 +100,7 @@ std::string reference_block(const ReportedMember& member, bool colour) {
       const std::string unit = words_of(deviation.metric, model).unit;
       text += row(reference_label(run, deviation, model), quantity(deviation.max, unit),
                   fmt::format("{:.2f} s", deviation.at), engine_label(run.engine),
-                  tolerance_words(deviation, unit, colour), width);
+                  tolerance_words(deviation, unit, holds_good(member.result), colour), width);
     }
   return text;
 }
@@ -108,7 +117,11 @@ std::string conservation_block(const Member& result) {
   add("energy balance", &Conservation::energy);
   add("momentum", &Conservation::momentum);
   add("angular momentum", &Conservation::angular_momentum);
-  return text;
+  const auto own = [](const EngineRun& run) -> std::string {
+    return run.trajectory.samples.empty() ? "-" : quantity(run.own_energy.relative, "");
+  };
+  return text + row(indented("own motion"), own(result.engines[0]), own(result.engines[1]),
+                    "drift over exchanged energy");
 }
 
 std::string scatter_words(const EngineTiming& timing) {
@@ -130,27 +143,8 @@ std::string cost_block(const Member& result) {
   return text;
 }
 
-std::string why_not_judged(const Member& result) {
-  for (const EngineRun& run : result.engines)
-    if (!run.reason.empty()) return fmt::format("{}: {}", engine_label(run.name), run.reason);
-  if (result.comparison && !result.comparison->same_times)
-    return "the engines were not sampled at the same times";
-  return "the spec gives no tolerance";
-}
-
-std::string verdict_line(const Member& result, bool colour) {
-  if (const std::string truth = result.exceeded_reference(); !truth.empty())
-    return paint(fmt::format("an engine is further from `{}` than allowed", truth), fmt::color::red,
-                 colour);
-  switch (result.verdict()) {
-    case Verdict::kAgree:
-      return paint("the engines agree", fmt::color::green, colour);
-    case Verdict::kDisagree:
-      return paint("the engines disagree", fmt::color::red, colour);
-    case Verdict::kNotJudged:
-      break;
-  }
-  return fmt::format("not judged; {}", why_not_judged(result));
+std::vector<std::string> remarks_of(const Member& result) {
+  return result.resolution ? result.resolution->remarks : std::vector<std::string>();
 }
 
 }  // namespace
@@ -161,6 +155,7 @@ std::string report_table(const ReportedMember& member, bool colour) {
   text += reference_block(member, colour);
   text += conservation_block(member.result);
   text += cost_block(member.result);
+  for (const std::string& remark : remarks_of(member.result)) text += "note: " + remark + "\n";
   return text + "\n" + verdict_line(member.result, colour) + "\n";
 }
 

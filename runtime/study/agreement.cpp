@@ -5,6 +5,7 @@
 #include "runtime/study/agreement.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -163,15 +164,9 @@ std::optional<bool> Metric::pass() const {
 }
 
 std::string_view verdict_name(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::kAgree:
-      return "agree";
-    case Verdict::kDisagree:
-      return "disagree";
-    case Verdict::kNotJudged:
-      break;
-  }
-  return "not_judged";
+  constexpr std::array<std::string_view, 6> kNames{"agree",      "disagree", "unresolved",
+                                                   "not_judged", "failed",   "interrupted"};
+  return kNames[static_cast<std::size_t>(verdict)];
 }
 
 double principal_angle(const Quaterniond& a, const Quaterniond& b) {

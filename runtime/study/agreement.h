@@ -34,9 +34,16 @@ struct Metric {
   std::optional<bool> pass() const;
 };
 
-enum class Verdict { kAgree, kDisagree, kNotJudged };
+enum class Verdict {
+  kAgree,        // every judged tolerance held
+  kDisagree,     // one was exceeded
+  kUnresolved,   // the step does not resolve the vehicle: agreement says nothing
+  kNotJudged,    // no tolerance was given
+  kFailed,       // an engine stopped
+  kInterrupted,  // by a signal
+};
 
-/// `agree`, `disagree`, `not_judged`
+/// `agree`, `disagree`, `unresolved`, `not_judged`, `failed`, `interrupted`
 std::string_view verdict_name(Verdict verdict);
 
 struct Comparison {

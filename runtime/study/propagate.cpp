@@ -32,7 +32,7 @@ class EngineOde : public Ode {
 };
 
 // The books are quadratures appended behind the state: nothing reads them back.
-constexpr std::size_t kBooks = 7;
+constexpr std::size_t kBooks = 8;
 
 class BookkeepingOde : public Ode {
  public:
@@ -46,6 +46,7 @@ class BookkeepingOde : public Ode {
     books[0] = external.power;
     Vector3d::Map(&books[1]) = external.force_N;
     Vector3d::Map(&books[4]) = external.torque_PntC_N;
+    books[7] = external.own_power;
   }
   void finish_step(std::span<double> state) override { engine_.finish_step(state.first(size_)); }
 
@@ -83,7 +84,7 @@ bool is_adaptive(const Model& model) { return tableau_of(model.simulation.method
 
 Books books_of(std::span<const double> state) {
   const std::span<const double> books = state.last(kBooks);
-  return {books[0], Vector3d::Map(&books[1]), Vector3d::Map(&books[4])};
+  return {books[0], Vector3d::Map(&books[1]), Vector3d::Map(&books[4]), books[7]};
 }
 
 std::string coordinate_name(const Model& model, bool is_wheel, int index) {
@@ -115,6 +116,7 @@ std::vector<std::string> state_names(const Model& model, const StateLayout& layo
   names.push_back("work");
   add("impulse_N", "xyz");
   add("angular_impulse_N", "xyz");
+  names.push_back("own_work");
   return names;
 }
 
@@ -153,6 +155,7 @@ class Run {
   double tolerance() const { return landings_.tolerance(); }
   std::span<const double> state() { return stepper_.state(); }
   const StepCounts& counts() const { return counts_; }
+  const AcceptedErrors& accepted() const { return accepted_; }
 
   /// To the next landing, or as far as an adaptive method got when `*stop` became true.
   /// @throws NumericalFailure
@@ -174,7 +177,7 @@ class Run {
   void advance_adaptively(double to, const std::atomic<bool>* stop) {
     excusing_.forgive();
     try {
-      time_ = control_.advance(stepper_, time_, to, counts_, stop);
+      time_ = control_.advance(stepper_, time_, to, counts_, accepted_, stop);
     } catch (const NumericalFailure&) {
       if (excusing_.excuse().empty()) throw;
       throw NumericalFailure(excusing_.excuse() + ", however short the step");
@@ -183,8 +186,7 @@ class Run {
 
   [[noreturn]] void fail() const {
     const auto entry = static_cast<std::size_t>(stepper_.first_non_finite());
-    throw NumericalFailure(fmt::format("`{}` is not finite in the step from t = {} s",
-                                       names_[entry], shortest(time_)));
+    throw NumericalFailure(fmt::format("`{}` is not finite", names_[entry]));
   }
 
   Engine& engine_;
@@ -195,7 +197,33 @@ class Run {
   Landings landings_;
   double time_ = 0.0;
   StepCounts counts_;
+  AcceptedErrors accepted_;
 };
+
+// No wheel, hinge or hub turns a hundred million radians a second, nothing outruns light, and no
+// slide is longer than a thousand kilometres: such a state is finite and still no motion.
+constexpr double kAbsurdRate = 1.0e8;          // [rad/s]
+constexpr double kAbsurdSpeed = 2.998e8;       // [m/s]
+constexpr double kAbsurdDisplacement = 1.0e6;  // [m]
+
+void refuse_absurd(const Observation& seen, const Model& model) {
+  const auto refuse = [](const std::string& name, double value, std::string_view unit) {
+    throw NumericalFailure(fmt::format("`{}` is absurd: {:.3g} {}", name, value, unit));
+  };
+  if (!(seen.omega_BN_B.norm() < kAbsurdRate))
+    refuse("omega_BN_B", seen.omega_BN_B.norm(), "rad/s");
+  if (!(seen.v_BN_N.norm() < kAbsurdSpeed)) refuse("v_BN_N", seen.v_BN_N.norm(), "m/s");
+  for (const Coordinate& coordinate : model.coordinates) {
+    const auto index = static_cast<std::size_t>(coordinate.index);
+    const bool is_wheel = coordinate.kind == Coordinate::Kind::kWheel;
+    const bool slides = coordinate.is_length();
+    const double rate = is_wheel ? seen.wheel_rate[index] : seen.joint_rate[index - 1];
+    if (!(std::abs(rate) < (slides ? kAbsurdSpeed : kAbsurdRate)))
+      refuse(coordinate.name + ".rate", rate, slides ? "m/s" : "rad/s");
+    if (slides && !(std::abs(seen.joint_position[index - 1]) < kAbsurdDisplacement))
+      refuse(coordinate.name + ".position", seen.joint_position[index - 1], "m");
+  }
+}
 
 /// Which landings are recorded.
 class Recorder {
@@ -235,17 +263,31 @@ void record_run(Engine& engine, Run& run, const Model& model, const PropagateOpt
   const auto record = [&] {
     const auto state = run.state();
     const auto size = static_cast<std::size_t>(engine.layout().size());
-    trajectory.samples.push_back(engine.observe(run.time(), state.first(size)));
+    Observation seen = engine.observe(run.time(), state.first(size));
+    refuse_absurd(seen, model);
+    trajectory.samples.push_back(std::move(seen));
     trajectory.books.push_back(books_of(state));
     recorder.recorded(run.time());
   };
   const auto stopped = [&] { return options.stop != nullptr && *options.stop; };
 
+  std::size_t looked_at = 0;
+  const auto look = [&] {
+    const std::vector<double>& instants = options.instants;
+    if (looked_at == instants.size() || run.time() < instants[looked_at] - run.tolerance()) return;
+    const auto size = static_cast<std::size_t>(engine.layout().size());
+    trajectory.instants.push_back(engine.observe(run.time(), run.state().first(size)));
+    while (looked_at < instants.size() && instants[looked_at] <= run.time() + run.tolerance())
+      ++looked_at;
+  };
+
   record();
+  look();
   while (!run.done() && !stopped()) {
     run.advance(options.stop);
     trajectory.t_end = run.time();
     if (recorder.is_due(run.time()) || is_stored_time(model.stored, run.time())) record();
+    look();
     progress.at(run.time());
   }
   if (trajectory.samples.back().time != run.time()) record();
@@ -265,6 +307,7 @@ Trajectory propagate(Engine& engine, const Model& model, const PropagateOptions&
     trajectory.failure = failure.what();
   }
   trajectory.counts = run.counts();
+  trajectory.accepted = run.accepted();
   return trajectory;
 }
 

@@ -19,6 +19,7 @@ struct Books {
   double work = 0.0;                              // [J]
   Vector3d impulse_N = Vector3d::Zero();          // [N s]
   Vector3d angular_impulse_N = Vector3d::Zero();  // [N m s] about C
+  double own_work = 0.0;                          // [J] on the motion about C
 };
 
 struct Trajectory {
@@ -31,12 +32,17 @@ struct Trajectory {
   // run ends with the state it had reached, a failed one with its last good sample.
   std::vector<Observation> samples;
   std::vector<Books> books;  // one per sample
+  // What was seen at the first landing at or after each of PropagateOptions::instants.
+  std::vector<Observation> instants;
+  // Of an adaptive method: sums of the accepted steps' estimated errors.
+  AcceptedErrors accepted;
   StepCounts counts;
 };
 
 struct PropagateOptions {
   const std::atomic<bool>* stop = nullptr;    // set by a signal handler
   std::function<void(double time)> progress;  // called at most every 50 ms with the time reached
+  std::vector<double> instants;               // [s] ascending: also looked at, but not recorded
 };
 
 /// With records and books: the run whose results are compared.

@@ -38,7 +38,8 @@ std::string skip_reason(std::string_view engine, const Model& model, const RunOp
 
 PropagateOptions watched(std::string_view engine, double duration, const RunOptions& options) {
   return {options.stop,
-          [engine, duration, &options](double time) { show(options, engine, time / duration); }};
+          [engine, duration, &options](double time) { show(options, engine, time / duration); },
+          {}};
 }
 
 void conclude(EngineRun& run) {
@@ -52,7 +53,8 @@ void conclude(EngineRun& run) {
   }
 }
 
-EngineRun run_engine(std::string_view name, const Bundle& bundle, const RunOptions& options) {
+EngineRun run_engine(std::string_view name, const Bundle& bundle, const Inspection& inspection,
+                     const RunOptions& options) {
   EngineRun run;
   run.name = name;
   run.reason = skip_reason(name, bundle.model, options);
@@ -62,14 +64,59 @@ EngineRun run_engine(std::string_view name, const Bundle& bundle, const RunOptio
   }
   try {
     const std::unique_ptr<Engine> engine = build(name, bundle);
-    run.trajectory =
-        propagate(*engine, bundle.model, watched(name, bundle.model.simulation.duration, options));
+    PropagateOptions watched_run = watched(name, bundle.model.simulation.duration, options);
+    watched_run.instants = inspection.all();
+    run.trajectory = propagate(*engine, bundle.model, watched_run);
     conclude(run);
   } catch (const NumericalFailure& failure) {  // it could not even be built or observed
     run.status = Status::kFailed;
     run.reason = failure.what();
   }
   return run;
+}
+
+MotionRecord record_of(const Model& model, const Inspection& inspection, const EngineRun& run) {
+  MotionRecord record(model, inspection.events);
+  const Trajectory& trajectory = run.trajectory;
+  for (std::size_t i = 0; i < trajectory.samples.size(); ++i)
+    record.see(trajectory.samples[i], trajectory.books[i]);
+  return record;
+}
+
+RunShown shown(const EngineRun& run, const MotionRecord& record) {
+  const Trajectory& trajectory = run.trajectory;
+  const double steps = static_cast<double>(std::max(1L, trajectory.counts.accepted));
+  return {&record, trajectory.instants, trajectory.t_end, trajectory.t_end / steps,
+          trajectory.accepted};
+}
+
+/// Says of a run that stopped when it did, and what stopped it.
+void explain(const Model& model, const Inspection& inspection, const MotionRecord& record,
+             EngineRun& run, Member& member) {
+  const Resolution why = explain_failure(model, inspection, shown(run, record));
+  run.reason = fmt::format("stopped at t = {} s: {}", shortest(run.trajectory.t_end),
+                           why.reasons.empty() ? run.reason : why.reasons.front());
+  if (!member.resolution || member.resolution->reasons.empty()) member.resolution = why;
+}
+
+/// By the first engine that flew: both share motion, method and step.
+void judge_resolution(const Model& model, const Inspection& inspection, Member& member) {
+  std::vector<MotionRecord> records;
+  for (EngineRun& run : member.engines) {
+    records.push_back(record_of(model, inspection, run));
+    run.own_energy = figures_of(records.back().energy());
+  }
+  std::vector<const OwnEnergy*> energies;
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    EngineRun& run = member.engines[i];
+    if (run.status == Status::kFailed) explain(model, inspection, records[i], run, member);
+    if (run.status == Status::kOk) energies.push_back(&records[i].energy());
+  }
+  if (member.failed()) return;
+  for (std::size_t i = 0; i < records.size() && !member.resolution; ++i)
+    if (member.engines[i].status == Status::kOk)
+      member.resolution = twincraft::judge_resolution(
+          model, inspection, shown(member.engines[i], records[i]), energies);
 }
 
 std::vector<ReferenceRun> hold_against_references(const Model& model,
@@ -114,7 +161,14 @@ std::string Member::exceeded_reference() const {
   return {};
 }
 
+bool Member::interrupted() const { return !complete && !refused && !failed(); }
+
+bool Member::unresolved() const { return resolution && !resolution->resolved && judges_resolution; }
+
 Verdict Member::verdict() const {
+  if (failed()) return Verdict::kFailed;
+  if (interrupted()) return Verdict::kInterrupted;
+  if (unresolved()) return Verdict::kUnresolved;
   if (!exceeded_reference().empty()) return Verdict::kDisagree;
   return comparison ? comparison->verdict : Verdict::kNotJudged;
 }
@@ -134,10 +188,13 @@ Member refused_member(const std::string& reason) {
 
 Member run_member(const Bundle& bundle, const RunOptions& options) {
   Member member;
+  member.judges_resolution = bundle.model.simulation.judges_resolution;
+  const Inspection inspection = plan_inspection(bundle.model);
   for (const char* engine : {"bsm", "mujoco"})
-    member.engines.push_back(run_engine(engine, bundle, options));
+    member.engines.push_back(run_engine(engine, bundle, inspection, options));
   const EngineRun& bsm = member.engines[0];
   const EngineRun& mujoco = member.engines[1];
+  judge_resolution(bundle.model, inspection, member);
   if (!bsm.trajectory.samples.empty() && !mujoco.trajectory.samples.empty())
     member.comparison = compare(bundle.model, bsm.trajectory, mujoco.trajectory);
   member.references = hold_against_references(bundle.model, member.engines);

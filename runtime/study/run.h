@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "compiler/ir/bundle.h"
+#include "runtime/linear/resolution.h"
 #include "runtime/reference/reference.h"
 #include "runtime/study/agreement.h"
 #include "runtime/study/conservation.h"
@@ -34,6 +35,7 @@ struct EngineRun {
   std::string reason;     // skipped, failed or interrupted: why
   Trajectory trajectory;  // no samples when skipped
   Conservation conservation;
+  EnergyFigures own_energy;
 };
 
 /// One engine against one truth.
@@ -47,15 +49,19 @@ struct Member {
   std::vector<EngineRun> engines;        // always bsm, mujoco
   std::optional<Comparison> comparison;  // when both ran
   std::vector<ReferenceRun> references;
-  std::optional<Timing> timing;  // when asked for and the runs succeeded
-  bool complete = false;         // everything asked for was computed to its end
-  bool refused = false;          // nothing was run: the engines say why
+  std::optional<Timing> timing;          // when asked for and the runs succeeded
+  std::optional<Resolution> resolution;  // when an engine flew
+  bool judges_resolution = true;         // what the spec asks for
+  bool complete = false;                 // everything asked for was computed to its end
+  bool refused = false;                  // nothing was run: the engines say why
 
-  /// Of the comparison, unless a reference's own tolerance was exceeded: that is kDisagree.
+  /// The first that holds of interrupted, failed, unresolved, disagree, agree, not judged.
   Verdict verdict() const;
   /// The first reference whose tolerance an engine exceeded; empty when none was.
   std::string exceeded_reference() const;
-  bool failed() const;  // an engine failed numerically
+  bool failed() const;       // an engine failed numerically
+  bool interrupted() const;  // a signal came before all was done
+  bool unresolved() const;   // and that is judged
 };
 
 /// A member that cannot be run, for a reason other than numbers: both engines skip it.

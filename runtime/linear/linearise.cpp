@@ -1,0 +1,156 @@
+#include "runtime/linear/linearise.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "runtime/bsm/engine.h"
+
+namespace twincraft {
+namespace {
+
+// Central differences: their error is of second order in these, rounding of first order in their
+// inverse; both are far below the two digits that a rate is told to.
+constexpr double kPositionStep = 1.0e-5;  // [rad] or [m]
+constexpr double kRateStep = 1.0e-4;      // relative to a rate, at least 1 rad/s or 1 m/s
+
+// Real parts this small beside the eigenvalue are rounding of the decomposition.
+constexpr double kRounding = 1.0e-9;
+
+Model in_deep_space(const Model& model) {
+  Model own = model;
+  own.gravity = {};
+  own.engines.attitude = AttitudeChart::kQuaternion;
+  return own;
+}
+
+std::string name_of(const Model& model, bool is_wheel, int index) {
+  for (const Coordinate& coordinate : model.coordinates)
+    if ((coordinate.kind == Coordinate::Kind::kWheel) == is_wheel && coordinate.index == index)
+      return coordinate.name;
+  return {};
+}
+
+std::vector<std::string> coordinates_of(const Model& model, int joints, int wheels) {
+  std::vector<std::string> names;
+  const auto add_joints = [&] {
+    for (int joint = 1; joint <= joints; ++joint) names.push_back(name_of(model, false, joint));
+  };
+  add_joints();
+  names.insert(names.end(), 3, "rotation");
+  add_joints();
+  for (int wheel = 0; wheel < wheels; ++wheel) names.push_back(name_of(model, true, wheel));
+  return names;
+}
+
+/// The entry that moves fastest: a position counts with the rate it swings at.
+int leading_entry(const OwnMotion& motion, const Eigen::VectorXcd& shape, double rate) {
+  int leading = 0;
+  double largest = -1.0;
+  for (int entry = 0; entry < motion.size(); ++entry) {
+    const double speed = std::abs(shape[entry]) * (entry < motion.joints() ? rate : 1.0);
+    if (speed <= largest) continue;
+    largest = speed;
+    leading = entry;
+  }
+  return leading;
+}
+
+}  // namespace
+
+Eigen::VectorXd state_of(const Observation& seen, const StateLayout& layout) {
+  Eigen::VectorXd state(layout.size());
+  const auto entries = [](const std::vector<double>& values) {
+    return Eigen::VectorXd::Map(values.data(), static_cast<Eigen::Index>(values.size()));
+  };
+  const Quaterniond& q = seen.q_BN;
+  if (layout.translation)
+    state << seen.r_BN_N, seen.v_BN_N;
+  else
+    state << seen.r_BN_N, seen.v_BN_N, q.w(), q.vec(), seen.omega_BN_B,
+        entries(seen.joint_position), entries(seen.joint_rate), entries(seen.wheel_rate);
+  return state;
+}
+
+Observation initial_observation(const Model& model) {
+  const InitialState& initial = model.initial;
+  Observation start;
+  start.r_BN_N = initial.r_BN_N;
+  start.v_BN_N = initial.v_BN_N;
+  start.q_BN = initial.q_BN;
+  start.omega_BN_B = initial.omega_BN_B;
+  start.joint_position = initial.joint_position;
+  start.joint_rate = initial.joint_rate;
+  start.wheel_rate = initial.rotor_speed;
+  return start;
+}
+
+OwnMotion::OwnMotion(const Model& model)
+    : engine_(make_bsm_engine(in_deep_space(model))),
+      joints_(engine_->layout().joints),
+      wheels_(engine_->layout().wheels),
+      coordinates_(coordinates_of(model, joints_, wheels_)),
+      derivative_(engine_->layout().size()) {}
+
+int OwnMotion::state_entry(int entry) const {
+  const StateLayout& layout = engine_->layout();
+  if (entry < joints_) return layout.joint() + entry;
+  if (entry < joints_ + 3) return layout.rate() + entry - joints_;
+  return layout.joint_rate() + entry - joints_ - 3;  // joint rates, then wheels: adjacent there too
+}
+
+Eigen::VectorXd OwnMotion::reduced(double time, const Eigen::VectorXd& state) {
+  const auto count = static_cast<std::size_t>(state.size());
+  engine_->derivative(time, {state.data(), count}, {derivative_.data(), count});
+  Eigen::VectorXd rates(size());
+  for (int entry = 0; entry < size(); ++entry) rates[entry] = derivative_[state_entry(entry)];
+  return rates;
+}
+
+Eigen::VectorXd OwnMotion::rates(const Observation& seen, double inputs_at) {
+  engine_->hold_inputs(inputs_at);
+  return reduced(seen.time, state_of(seen, engine_->layout()));
+}
+
+Eigen::MatrixXd OwnMotion::jacobian(const Observation& seen, double inputs_at) {
+  engine_->hold_inputs(inputs_at);
+  Eigen::VectorXd state = state_of(seen, engine_->layout());
+  Eigen::MatrixXd A(size(), size());
+  for (int entry = 0; entry < size(); ++entry) {
+    double& value = state[state_entry(entry)];
+    const double centre = value;
+    const double step =
+        entry < joints_ ? kPositionStep : kRateStep * std::max(1.0, std::abs(centre));
+    value = centre + step;
+    const Eigen::VectorXd above = reduced(seen.time, state);
+    value = centre - step;
+    A.col(entry) = (above - reduced(seen.time, state)) / (2.0 * step);
+    value = centre;
+  }
+  return A;
+}
+
+std::vector<Mode> decompose(const OwnMotion& motion, const Eigen::MatrixXd& A,
+                            const Eigen::VectorXd& drive, double slowest) {
+  if (A.rows() == 0 || !A.allFinite() || !drive.allFinite()) return {};
+  const Eigen::EigenSolver<Eigen::MatrixXd> solver(A);
+  if (solver.info() != Eigen::Success) return {};
+  const Eigen::MatrixXcd shapes = solver.eigenvectors();
+  Eigen::VectorXcd weights = Eigen::VectorXcd::Zero(A.rows());
+  if (!drive.isZero(0.0))
+    weights = shapes.completeOrthogonalDecomposition().solve(drive.cast<std::complex<double>>());
+  std::vector<Mode> modes;
+  for (Eigen::Index k = 0; k < A.rows(); ++k) {
+    std::complex<double> s = solver.eigenvalues()[k];
+    if (std::abs(s) < slowest || s.imag() < 0.0) continue;
+    if (std::abs(s.real()) < kRounding * std::abs(s)) s.real(0.0);
+    Mode mode{s, shapes.col(k), {}, false, weights[k]};
+    const int leading = leading_entry(motion, mode.shape, mode.rate());
+    mode.coordinate = motion.coordinate(leading);
+    mode.is_rotation = leading >= motion.rate() && leading < motion.rate() + 3;
+    modes.push_back(std::move(mode));
+  }
+  return modes;
+}
+
+}  // namespace twincraft

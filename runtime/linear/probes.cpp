@@ -1,0 +1,77 @@
+#include "runtime/linear/probes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "runtime/bsm/engine.h"
+#include "runtime/linear/linearise.h"
+#include "runtime/reference/reference.h"
+
+namespace twincraft {
+namespace {
+
+constexpr double kDegrees = 180.0 / std::numbers::pi;  // [deg/rad]
+
+Model in_quaternions(const Model& model) {
+  Model same = model;
+  same.engines.attitude = AttitudeChart::kQuaternion;
+  return same;
+}
+
+constexpr double kRounding = 8.0 * std::numeric_limits<double>::epsilon();
+
+/// |a - b|, or nothing where it is rounding of the larger: summed over a long run that would count.
+double difference(double a, double b) {
+  const double found = std::abs(a - b);
+  return found <= kRounding * std::max(std::abs(a), std::abs(b)) ? 0.0 : found;
+}
+
+}  // namespace
+
+class Prober::Ode final : public twincraft::Ode {
+ public:
+  explicit Ode(Engine& engine) : engine_(engine) {}
+  int size() const override { return engine_.layout().size(); }
+  void derivative(double time, std::span<const double> state, std::span<double> rate) override {
+    engine_.derivative(time, state, rate);
+  }
+  void finish_step(std::span<double> state) override { engine_.finish_step(state); }
+
+ private:
+  Engine& engine_;
+};
+
+Prober::Prober(const Model& model)
+    : engine_(make_bsm_engine(in_quaternions(model))),
+      ode_(std::make_unique<Ode>(*engine_)),
+      stepper_(tableau_of(model.simulation.method), *ode_) {
+  const double gain = std::pow(2.0, stepper_.tableau().order);
+  factor_ = gain / (gain - 1.0);
+}
+
+Prober::~Prober() = default;
+
+Observation Prober::stepped(const Observation& seen, double h, int steps) {
+  const Eigen::VectorXd state = state_of(seen, engine_->layout());
+  stepper_.restart({state.data(), static_cast<std::size_t>(state.size())});
+  for (int step = 0; step < steps; ++step) stepper_.step(seen.time + step * h, h);
+  return engine_->observe(seen.time + steps * h, stepper_.state());
+}
+
+LocalError Prober::probe(const Observation& seen, double h) {
+  engine_->hold_inputs(seen.time);
+  const Observation whole = stepped(seen, h, 1);
+  const Observation halves = stepped(seen, 0.5 * h, 2);
+  LocalError error;
+  error.attitude = factor_ * angle_deg(whole.q_BN, halves.q_BN) / kDegrees;
+  const double apart = (whole.r_CN_N - halves.r_CN_N).norm();
+  error.center = apart <= kRounding * whole.r_CN_N.norm() ? 0.0 : factor_ * apart;
+  for (std::size_t joint = 0; joint < whole.joint_position.size(); ++joint)
+    error.joint.push_back(factor_ *
+                          difference(whole.joint_position[joint], halves.joint_position[joint]));
+  return error;
+}
+
+}  // namespace twincraft
