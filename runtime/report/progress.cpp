@@ -44,7 +44,7 @@ void ProgressBar::show(std::string_view phase, double fraction) {
     phase_begin_ = now;
   }
   if (now - begin_ < kQuiet || now - last_drawn_ < kInterval) return;
-  const bool simulates = phase == "bsm" || phase == "mujoco";
+  const bool simulates = phase == "bsm" || phase == "mujoco" || phase == "both";
   write(fmt::format(
       "{}{}", kEraseLine,
       progress_line(phase, fraction, seconds(now - phase_begin_), simulates ? duration_ : 0.0)));

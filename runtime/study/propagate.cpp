@@ -1,5 +1,5 @@
-// Both runs share one loop over landings; they differ in what is integrated (the engine alone, or
-// the engine and its books) and in what is done at a landing.
+// Both runs share one way from landing to landing; they differ in what is integrated (the engine
+// alone, or the engine and its books) and in what is done at a landing.
 // Tested by tests/runtime/propagate_test.cpp.
 #include "runtime/study/propagate.h"
 
@@ -9,7 +9,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
-#include <optional>
+#include <utility>
 
 #include "compiler/ir/number.h"
 #include "runtime/integrate/landings.h"
@@ -255,59 +255,138 @@ class Progress {
   Clock::time_point last_ = Clock::now();
 };
 
-/// From the first sample to the last; t_end and the samples stay valid when this throws.
-void record_run(Engine& engine, Run& run, const Model& model, const PropagateOptions& options,
-                Trajectory& trajectory) {
-  Recorder recorder(model.simulation.record, run.tolerance());
-  Progress progress(options.progress);
-  const auto record = [&] {
-    const auto state = run.state();
-    const auto size = static_cast<std::size_t>(engine.layout().size());
-    Observation seen = engine.observe(run.time(), state.first(size));
-    refuse_absurd(seen, model);
-    trajectory.samples.push_back(std::move(seen));
-    trajectory.books.push_back(books_of(state));
-    recorder.recorded(run.time());
-  };
-  const auto stopped = [&] { return options.stop != nullptr && *options.stop; };
-
-  std::size_t looked_at = 0;
-  const auto look = [&] {
-    const std::vector<double>& instants = options.instants;
-    if (looked_at == instants.size() || run.time() < instants[looked_at] - run.tolerance()) return;
-    const auto size = static_cast<std::size_t>(engine.layout().size());
-    trajectory.instants.push_back(engine.observe(run.time(), run.state().first(size)));
-    while (looked_at < instants.size() && instants[looked_at] <= run.time() + run.tolerance())
-      ++looked_at;
-  };
-
-  record();
-  look();
-  while (!run.done() && !stopped()) {
-    run.advance(options.stop);
-    trajectory.t_end = run.time();
-    if (recorder.is_due(run.time()) || is_stored_time(model.stored, run.time())) record();
-    look();
-    progress.at(run.time());
-  }
-  if (trajectory.samples.back().time != run.time()) record();
-  if (run.time() < model.simulation.duration) trajectory.status = Trajectory::Status::kInterrupted;
-}
-
 }  // namespace
 
-Trajectory propagate(Engine& engine, const Model& model, const PropagateOptions& options) {
-  BookkeepingOde ode(engine);
-  Run run(engine, ode, model);
-  Trajectory trajectory;
-  try {
-    record_run(engine, run, model, options, trajectory);
-  } catch (const NumericalFailure& failure) {
-    trajectory.status = Trajectory::Status::kFailed;
-    trajectory.failure = failure.what();
+/// The run and what is written down on its way.
+class RecordedRun::Flight {
+ public:
+  Flight(Engine& engine, const Model& model, SampleSink& sink, PropagateOptions options)
+      : engine_(engine),
+        model_(model),
+        sink_(sink),
+        options_(std::move(options)),
+        ode_(engine),
+        run_(engine, ode_, model),
+        recorder_(model.simulation.record, run_.tolerance()),
+        progress_(options_.progress) {
+    guarded([this] {
+      record();
+      capture_instants();
+    });
   }
-  trajectory.counts = run.counts();
-  trajectory.accepted = run.accepted();
+
+  bool ended() const { return ended_; }
+  double time() const { return run_.time(); }
+
+  void advance_until(double time) {
+    if (!ended_) guarded([this, time] { fly(time); });
+  }
+
+  Trajectory take_trajectory() {
+    trajectory_.counts = run_.counts();
+    trajectory_.accepted = run_.accepted();
+    if (trajectory_.recorded > 0) {
+      trajectory_.samples.push_back(std::move(last_));
+      trajectory_.books.push_back(last_books_);
+    }
+    return std::move(trajectory_);
+  }
+
+ private:
+  template <class Work>
+  void guarded(const Work& work) {
+    try {
+      work();
+    } catch (const NumericalFailure& failure) {
+      trajectory_.status = Trajectory::Status::kFailed;
+      trajectory_.failure = failure.what();
+      ended_ = true;
+    }
+  }
+
+  bool stopped() const { return options_.stop != nullptr && *options_.stop; }
+
+  void fly(double until) {
+    while (run_.time() < until && !run_.done() && !stopped()) {
+      run_.advance(options_.stop);
+      trajectory_.t_end = run_.time();
+      if (recorder_.is_due(run_.time()) || is_stored_time(model_.stored, run_.time())) record();
+      if (run_.time() >= next_instant_) capture_instants();
+      progress_.at(run_.time());
+    }
+    if (run_.done() || stopped()) end();
+  }
+
+  void end() {
+    if (last_.time != run_.time()) record();
+    if (run_.time() < model_.simulation.duration)
+      trajectory_.status = Trajectory::Status::kInterrupted;
+    ended_ = true;
+  }
+
+  Observation observe() {
+    const auto size = static_cast<std::size_t>(engine_.layout().size());
+    return engine_.observe(run_.time(), run_.state().first(size));
+  }
+
+  void record() {
+    last_ = observe();
+    refuse_absurd(last_, model_);
+    last_books_ = books_of(run_.state());
+    ++trajectory_.recorded;
+    recorder_.recorded(run_.time());
+    sink_.take(last_, last_books_);
+  }
+
+  /// All that have come, and when the next one does.
+  void capture_instants() {
+    const std::vector<double>& instants = options_.instants;
+    std::size_t next = trajectory_.instants.size();
+    for (; next < instants.size() && run_.time() >= instants[next] - run_.tolerance(); ++next)
+      trajectory_.instants.push_back(observe());
+    next_instant_ = next < instants.size() ? instants[next] - run_.tolerance() : kNever;
+  }
+
+  static constexpr double kNever = std::numeric_limits<double>::infinity();
+
+  Engine& engine_;
+  const Model& model_;
+  SampleSink& sink_;
+  PropagateOptions options_;
+  BookkeepingOde ode_;
+  Run run_;
+  Recorder recorder_;
+  Progress progress_;
+  Trajectory trajectory_;
+  Observation last_;  // taken
+  Books last_books_;
+  double next_instant_ = kNever;
+  bool ended_ = false;
+};
+
+RecordedRun::RecordedRun(Engine& engine, const Model& model, SampleSink& sink,
+                         PropagateOptions options)
+    : flight_(std::make_unique<Flight>(engine, model, sink, std::move(options))) {}
+
+RecordedRun::~RecordedRun() = default;
+
+void RecordedRun::advance_until(double time) { flight_->advance_until(time); }
+bool RecordedRun::ended() const { return flight_->ended(); }
+double RecordedRun::time() const { return flight_->time(); }
+Trajectory RecordedRun::take_trajectory() { return flight_->take_trajectory(); }
+
+void SampleStore::take(const Observation& sample, const Books& now) {
+  samples.push_back(sample);
+  books.push_back(now);
+}
+
+Trajectory propagate(Engine& engine, const Model& model, const PropagateOptions& options) {
+  SampleStore store;
+  RecordedRun run(engine, model, store, options);
+  run.advance_until(std::numeric_limits<double>::infinity());
+  Trajectory trajectory = run.take_trajectory();
+  trajectory.samples = std::move(store.samples);
+  trajectory.books = std::move(store.books);
   return trajectory;
 }
 

@@ -5,7 +5,9 @@
 #pragma once
 
 #include <atomic>
+#include <cstddef>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -22,31 +24,71 @@ struct Books {
   double own_work = 0.0;                          // [J] on the motion about C
 };
 
+/// Takes what a run records, one sample after another.
+class SampleSink {
+ public:
+  virtual ~SampleSink() = default;
+  virtual void take(const Observation& sample, const Books& books) = 0;
+};
+
+/// Keeps them all.
+struct SampleStore : SampleSink {
+  std::vector<Observation> samples;
+  std::vector<Books> books;  // one per sample
+  void take(const Observation& sample, const Books& now) override;
+};
+
 struct Trajectory {
   enum class Status { kComplete, kInterrupted, kFailed };
   Status status = Status::kComplete;
-  std::string failure;  // kFailed: what, when and which coordinate
-  double t_end = 0.0;   // [s] where it got to
+  std::string failure;       // kFailed: what, when and which coordinate
+  double t_end = 0.0;        // [s] where it got to
+  std::size_t recorded = 0;  // how many samples there were
   // At 0, at the end, and between them at the first landing at or after each multiple of the
   // plan's `record`: when that is no multiple of the step, no step is split for it. An interrupted
-  // run ends with the state it had reached, a failed one with its last good sample.
+  // run ends with the state it had reached, a failed one with its last good sample. All of them, or
+  // the last alone where a sink has taken them.
   std::vector<Observation> samples;
   std::vector<Books> books;  // one per sample
-  // What was seen at the first landing at or after each of PropagateOptions::instants.
+  // At the first landing at or after each of PropagateOptions::instants, as far as the run got.
   std::vector<Observation> instants;
-  // Of an adaptive method: sums of the accepted steps' estimated errors.
-  AcceptedErrors accepted;
   StepCounts counts;
+  AcceptedErrors accepted;  // of an adaptive method
 };
 
 struct PropagateOptions {
-  const std::atomic<bool>* stop = nullptr;    // set by a signal handler
-  std::function<void(double time)> progress;  // called at most every 50 ms with the time reached
-  std::vector<double> instants;               // [s] ascending: also looked at, but not recorded
+  const std::atomic<bool>* stop = nullptr;         // set by a signal handler
+  std::function<void(double time)> progress = {};  // at most every 50 ms: the time reached
+  std::vector<double> instants = {};               // [s] sorted: see Trajectory::instants
 };
 
-/// With records and books: the run whose results are compared.
-/// @pre step, duration and record of the plan are positive
+/// A run with records and books that is flown in pieces. Pieces of any length give the bytes of
+/// one.
+class RecordedRun {
+ public:
+  /// `sink` gets the state at t = 0 at once. All that is referred to must outlive the run.
+  /// @pre step, duration and record of the plan are positive
+  RecordedRun(Engine& engine, const Model& model, SampleSink& sink, PropagateOptions options = {});
+  ~RecordedRun();
+  RecordedRun(const RecordedRun&) = delete;
+  RecordedRun& operator=(const RecordedRun&) = delete;
+
+  /// On to the first landing at or after `time` [s]; less far when the run ends before.
+  void advance_until(double time);
+
+  bool ended() const;  // at its duration, stopped or failed
+  double time() const;
+
+  /// How it went so far, with the last sample alone. The run has nothing left to tell then.
+  Trajectory take_trajectory();
+
+ private:
+  class Flight;
+  std::unique_ptr<Flight> flight_;
+};
+
+/// The whole run at once, with all its samples: the run whose results are compared.
+/// @pre as RecordedRun
 Trajectory propagate(Engine& engine, const Model& model, const PropagateOptions& options = {});
 
 /// The bare run that is timed: no records, no books. @throws NumericalFailure

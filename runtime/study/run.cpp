@@ -5,11 +5,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <memory>
 
 #include "compiler/ir/number.h"
 #include "runtime/bsm/engine.h"
 #include "runtime/mujoco/engine.h"
+#include "runtime/study/resolve.h"
 
 namespace twincraft {
 namespace {
@@ -36,88 +38,136 @@ std::string skip_reason(std::string_view engine, const Model& model, const RunOp
   return is_bsm(engine) ? "" : model.mujoco_refusal;
 }
 
-PropagateOptions watched(std::string_view engine, double duration, const RunOptions& options) {
-  return {options.stop,
-          [engine, duration, &options](double time) { show(options, engine, time / duration); },
-          {}};
-}
-
-void conclude(EngineRun& run) {
-  const Trajectory& trajectory = run.trajectory;
-  run.conservation = conservation_of(trajectory);
-  if (trajectory.status == Trajectory::Status::kFailed) {
-    run.status = Status::kFailed;
-    run.reason = trajectory.failure;
-  } else if (trajectory.status == Trajectory::Status::kInterrupted) {
-    run.reason = fmt::format("interrupted at t = {} s", shortest(trajectory.t_end));
+/// One engine on its way.
+class EngineFlight {
+ public:
+  EngineFlight(std::string_view name, const Bundle& bundle, const Inspection& inspection,
+               const RunOptions& options, std::function<void()> progress)
+      : model_(bundle.model) {
+    run_.name = name;
+    run_.reason = skip_reason(name, bundle.model, options);
+    if (!run_.reason.empty()) {
+      run_.status = Status::kSkipped;
+      return;
+    }
+    guarded([&] {
+      engine_ = build(name, bundle);
+      flight_ = std::make_unique<RecordedRun>(
+          *engine_, model_, store_,
+          PropagateOptions{options.stop, [this, progress = std::move(progress)](double time) {
+                             time_ = time;
+                             progress();
+                           },
+                           inspection.all()});
+    });
   }
-}
 
-EngineRun run_engine(std::string_view name, const Bundle& bundle, const Inspection& inspection,
-                     const RunOptions& options) {
-  EngineRun run;
-  run.name = name;
-  run.reason = skip_reason(name, bundle.model, options);
-  if (!run.reason.empty()) {
-    run.status = Status::kSkipped;
-    return run;
+  EngineFlight(const EngineFlight&) = delete;
+  EngineFlight& operator=(const EngineFlight&) = delete;
+
+  bool flies() const { return flight_ != nullptr; }
+  bool ended() const { return !flies() || flight_->ended(); }
+  double time() const { return time_; }
+  void advance_until(double time) {
+    if (!ended()) guarded([&] { flight_->advance_until(time); });
   }
-  try {
-    const std::unique_ptr<Engine> engine = build(name, bundle);
-    PropagateOptions watched_run = watched(name, bundle.model.simulation.duration, options);
-    watched_run.instants = inspection.all();
-    run.trajectory = propagate(*engine, bundle.model, watched_run);
-    conclude(run);
-  } catch (const NumericalFailure& failure) {  // it could not even be built or observed
-    run.status = Status::kFailed;
-    run.reason = failure.what();
+
+  EngineRun conclude() {
+    if (flies()) guarded([this] { conclude_flight(); });
+    return std::move(run_);
   }
-  return run;
-}
 
-MotionRecord record_of(const Model& model, const Inspection& inspection, const EngineRun& run) {
-  MotionRecord record(model, inspection.events);
-  const Trajectory& trajectory = run.trajectory;
-  for (std::size_t i = 0; i < trajectory.samples.size(); ++i)
-    record.see(trajectory.samples[i], trajectory.books[i]);
-  return record;
-}
-
-RunShown shown(const EngineRun& run, const MotionRecord& record) {
-  const Trajectory& trajectory = run.trajectory;
-  const double steps = static_cast<double>(std::max(1L, trajectory.counts.accepted));
-  return {&record, trajectory.instants, trajectory.t_end, trajectory.t_end / steps,
-          trajectory.accepted};
-}
-
-/// Says of a run that stopped when it did, and what stopped it.
-void explain(const Model& model, const Inspection& inspection, const MotionRecord& record,
-             EngineRun& run, Member& member) {
-  const Resolution why = explain_failure(model, inspection, shown(run, record));
-  run.reason = fmt::format("stopped at t = {} s: {}", shortest(run.trajectory.t_end),
-                           why.reasons.empty() ? run.reason : why.reasons.front());
-  if (!member.resolution || member.resolution->reasons.empty()) member.resolution = why;
-}
-
-/// By the first engine that flew: both share motion, method and step.
-void judge_resolution(const Model& model, const Inspection& inspection, Member& member) {
-  std::vector<MotionRecord> records;
-  for (EngineRun& run : member.engines) {
-    records.push_back(record_of(model, inspection, run));
-    run.own_energy = figures_of(records.back().energy());
+ private:
+  /// An engine may not even be built.
+  template <class Work>
+  void guarded(const Work& work) {
+    try {
+      work();
+    } catch (const NumericalFailure& failure) {
+      run_.status = Status::kFailed;
+      run_.reason = failure.what();
+    }
   }
-  std::vector<const OwnEnergy*> energies;
-  for (std::size_t i = 0; i < records.size(); ++i) {
-    EngineRun& run = member.engines[i];
-    if (run.status == Status::kFailed) explain(model, inspection, records[i], run, member);
-    if (run.status == Status::kOk) energies.push_back(&records[i].energy());
+
+  void conclude_flight() {
+    Trajectory& trajectory = run_.trajectory = flight_->take_trajectory();
+    trajectory.samples = std::move(store_.samples);
+    trajectory.books = std::move(store_.books);
+    run_.conservation = conservation_of(trajectory);
+    if (trajectory.status == Trajectory::Status::kFailed) {
+      run_.status = Status::kFailed;
+      run_.reason = trajectory.failure;
+    } else if (trajectory.status == Trajectory::Status::kInterrupted) {
+      run_.reason = fmt::format("interrupted at t = {} s", shortest(trajectory.t_end));
+    }
   }
-  if (member.failed()) return;
-  for (std::size_t i = 0; i < records.size() && !member.resolution; ++i)
-    if (member.engines[i].status == Status::kOk)
-      member.resolution = twincraft::judge_resolution(
-          model, inspection, shown(member.engines[i], records[i]), energies);
-}
+
+  const Model& model_;
+  EngineRun run_;
+  SampleStore store_;
+  std::unique_ptr<Engine> engine_;
+  std::unique_ptr<RecordedRun> flight_;
+  double time_ = 0.0;  // last heard of
+};
+
+/// How far both engines go before the next slice: as far as they come in about 50 ms, so that they
+/// stay together, an early end leaves a stretch to compare, and changing over costs nothing. How a
+/// run is cut changes nothing in it.
+class Slices {
+ public:
+  explicit Slices(const SimulationPlan& plan)
+      : step_(plan.step), longest_(kMostSamples * plan.record) {}
+
+  double next() {
+    const Clock::time_point now = Clock::now();
+    if (now - begin_ < std::chrono::milliseconds(25)) steps_ *= 2.0;
+    if (now - begin_ > std::chrono::milliseconds(100)) steps_ = std::max(1.0, steps_ / 2.0);
+    begin_ = now;
+    return time_ += std::min(steps_ * step_, longest_);
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  static constexpr double kMostSamples = 1000.0;
+  double step_, longest_;  // [s]
+  double steps_ = 0.5;
+  double time_ = 0.0;  // [s] where the slice ends
+  Clock::time_point begin_ = Clock::now();
+};
+
+/// Both engines side by side, as far as they are flown.
+class TwinFlight {
+ public:
+  TwinFlight(const Bundle& bundle, const Inspection& inspection, const RunOptions& options)
+      : plan_(bundle.model.simulation),
+        options_(options),
+        bsm_("bsm", bundle, inspection, options, [this] { show_progress(); }),
+        mujoco_("mujoco", bundle, inspection, options, [this] { show_progress(); }) {}
+
+  std::vector<EngineRun> fly() {
+    Slices slices(plan_);
+    while (!bsm_.ended() || !mujoco_.ended()) {
+      const double until = slices.next();
+      bsm_.advance_until(until);
+      mujoco_.advance_until(until);
+    }
+    return {bsm_.conclude(), mujoco_.conclude()};
+  }
+
+ private:
+  void show_progress() const {
+    const bool both = bsm_.flies() && mujoco_.flies();
+    const double done = (bsm_.time() + mujoco_.time()) / plan_.duration;
+    if (both)
+      show(options_, "both", 0.5 * done);
+    else
+      show(options_, bsm_.flies() ? "bsm" : "mujoco", done);
+  }
+
+  const SimulationPlan& plan_;
+  const RunOptions& options_;
+  EngineFlight bsm_, mujoco_;
+};
 
 std::vector<ReferenceRun> hold_against_references(const Model& model,
                                                   const std::vector<EngineRun>& engines) {
@@ -190,11 +240,10 @@ Member run_member(const Bundle& bundle, const RunOptions& options) {
   Member member;
   member.judges_resolution = bundle.model.simulation.judges_resolution;
   const Inspection inspection = plan_inspection(bundle.model);
-  for (const char* engine : {"bsm", "mujoco"})
-    member.engines.push_back(run_engine(engine, bundle, inspection, options));
+  member.engines = TwinFlight(bundle, inspection, options).fly();
   const EngineRun& bsm = member.engines[0];
   const EngineRun& mujoco = member.engines[1];
-  judge_resolution(bundle.model, inspection, member);
+  judge_member(bundle.model, inspection, member);
   if (!bsm.trajectory.samples.empty() && !mujoco.trajectory.samples.empty())
     member.comparison = compare(bundle.model, bsm.trajectory, mujoco.trajectory);
   member.references = hold_against_references(bundle.model, member.engines);

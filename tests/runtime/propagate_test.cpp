@@ -88,6 +88,59 @@ TEST(Propagate, RecordsTheFirstStepEndAfterARecordTimeThatIsNoMultiple) {
   EXPECT_EQ(trajectory.counts.accepted, 4) << "a step was split for a record";
 }
 
+TEST(RecordedRun, IsTheSameInPiecesOfAnyLength) {
+  Model model = toy_model();
+  push_about_z(model, {{{0.0, 2.0}, {0.33, 3.0}}});
+  model.simulation.record = 0.2;
+  for (const Method method : {Method::kRk4, Method::kRkf78}) {
+    model.simulation.method = method;
+    ToyEngine whole_engine(model), engine(model);
+    const Trajectory whole = propagate(whole_engine, model);
+    SampleStore store;
+    RecordedRun run(engine, model, store);
+    for (double until = 0.0; !run.ended(); until += 0.13) run.advance_until(until);
+    const Trajectory pieces = run.take_trajectory();
+    ASSERT_EQ(store.samples.size(), whole.samples.size());
+    for (std::size_t i = 0; i < whole.samples.size(); ++i) {
+      EXPECT_EQ(store.samples[i].time, whole.samples[i].time);
+      EXPECT_EQ(store.samples[i].q_BN.coeffs(), whole.samples[i].q_BN.coeffs());
+      EXPECT_EQ(store.books[i].angular_impulse_N, whole.books[i].angular_impulse_N);
+    }
+    EXPECT_EQ(pieces.recorded, whole.samples.size());
+    EXPECT_EQ(pieces.counts.accepted, whole.counts.accepted);
+    EXPECT_EQ(engine.final_state, whole_engine.final_state);
+  }
+}
+
+TEST(RecordedRun, GoesToTheFirstLandingAtOrAfterAnInstant) {
+  const Model model = toy_model();
+  ToyEngine engine(model);
+  SampleStore store;
+  RecordedRun run(engine, model, store);
+  EXPECT_EQ(run.time(), 0.0);
+  run.advance_until(0.25);
+  EXPECT_EQ(run.time(), 3 * 0.1);
+  run.advance_until(0.2);
+  EXPECT_EQ(run.time(), 3 * 0.1);
+  EXPECT_FALSE(run.ended());
+  run.advance_until(5.0);
+  EXPECT_EQ(run.time(), 1.0);
+  EXPECT_TRUE(run.ended());
+}
+
+TEST(RecordedRun, ObservesInstantsWithoutRecordingThem) {
+  Model model = toy_model();
+  model.simulation.record = 1.0;
+  ToyEngine engine(model), bare(model);
+  const Trajectory trajectory = propagate(engine, model, {.instants = {0.0, 0.15, 0.18, 0.3, 2.0}});
+  std::vector<double> times;
+  for (const Observation& instant : trajectory.instants) times.push_back(instant.time);
+  EXPECT_THAT(times, ElementsAre(0.0, 0.2, 0.2, 3 * 0.1)) << "the last never comes";
+  EXPECT_THAT(sample_times(trajectory), ElementsAre(0.0, 1.0));
+  propagate(bare, model);
+  EXPECT_EQ(engine.final_state, bare.final_state);
+}
+
 TEST(Propagate, EndsABareRunWhenTold) {
   const Model model = toy_model();
   ToyEngine engine(model);
