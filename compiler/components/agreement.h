@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "compiler/ir/model.h"
 #include "compiler/schema/table.h"
@@ -10,18 +11,52 @@
 namespace twincraft {
 
 /// Absent: reported, not judged.
-struct AgreementSpec : Written {
-  std::optional<double> attitude;  // [rad] principal angle between the engines
+struct KeplerToleranceSpec : Written {
+  std::optional<double> position;  // [m]
+  std::optional<double> velocity;  // [m/s]
+};
+
+/// The same, of the references about rotation: `spin_up` and `torque_free`.
+struct RotationToleranceSpec : Written {
+  std::optional<double> attitude;  // [rad] principal angle
   std::optional<double> rate;      // [rad/s]
-  std::optional<double> position;  // [m] system centre of mass
-  std::optional<double> velocity;  // [m/s] system centre of mass
-  std::optional<double> joint;     // [rad]
-  std::optional<double> wheel;     // [rad/s]
-  std::optional<double> slosh;     // [m]
-  std::optional<double> mass;      // [kg]
+};
+
+/// The same.
+struct TsiolkovskyToleranceSpec : Written {
+  std::optional<double> position;  // [m]
+  std::optional<double> velocity;  // [m/s]
+  std::optional<double> delta_v;   // relative
+};
+
+struct ReferenceTolerancesSpec : Written {
+  KeplerToleranceSpec kepler;
+  RotationToleranceSpec spin_up, torque_free;
+  TsiolkovskyToleranceSpec tsiolkovsky;
+};
+
+/// Absent: reported, not judged.
+struct AgreementSpec : Written {
+  std::optional<double> attitude;          // [rad] principal angle between the engines
+  std::optional<double> rate;              // [rad/s]
+  std::optional<double> position;          // [m] system centre of mass
+  std::optional<double> velocity;          // [m/s] system centre of mass
+  std::optional<double> joint;             // [rad]
+  std::optional<double> travel;            // [m]
+  std::optional<double> wheel;             // [rad/s]
+  std::optional<double> slosh;             // [m]
+  std::optional<double> mass;              // [kg]
+  std::optional<double> energy;            // relative
+  std::optional<double> momentum;          // relative
+  std::optional<double> angular_momentum;  // relative
+  ReferenceTolerancesSpec references;
 };
 
 const Table<AgreementSpec>& agreement_table();
+
+/// A tolerance for a reference that the run is not held against is a warning.
+void check(const AgreementSpec& agreement, const std::vector<ReferenceKind>& references,
+           Diagnostics& diagnostics);
 
 Agreement lower(const AgreementSpec& agreement);
 

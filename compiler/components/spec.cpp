@@ -215,6 +215,7 @@ void check(const Spec& spec, Diagnostics& diagnostics) {
   check(spec.initial, spec.environment, diagnostics);
   check(spec.simulation, oscillators(spec), size.coordinates, diagnostics);
   check(spec.engines, spec.environment, diagnostics);
+  check(spec.agreement, spec.references, diagnostics);
   if (spec.stored)
     check(*spec.stored, names_stored(spec), spec.environment, spec.simulation.duration,
           diagnostics);

@@ -98,16 +98,38 @@ struct EngineControls {
   ChainPath chains = ChainPath::kPlanar;
 };
 
+/// Tolerances of one reference, of those metrics that it has; absent: reported, not judged.
+struct ReferenceTolerance {
+  std::optional<double> position;  // [m]
+  std::optional<double> velocity;  // [m/s]
+  std::optional<double> attitude;  // [rad]
+  std::optional<double> rate;      // [rad/s]
+  std::optional<double> delta_v;   // relative
+};
+
+/// `stored` brings its own, see StoredTruth.
+struct ReferenceTolerances {
+  ReferenceTolerance kepler, spin_up, torque_free, tsiolkovsky;
+};
+
 /// Tolerances of the verdict; absent: reported, not judged.
 struct Agreement {
+  // How far the engines may be apart.
   std::optional<double> attitude;  // [rad]
   std::optional<double> rate;      // [rad/s]
   std::optional<double> position;  // [m] system centre of mass
   std::optional<double> velocity;  // [m/s]
-  std::optional<double> joint;     // [rad] or [m]
+  std::optional<double> joint;     // [rad] joint angles
+  std::optional<double> travel;    // [m] prismatic joints
   std::optional<double> wheel;     // [rad/s]
   std::optional<double> slosh;     // [m]
   std::optional<double> mass;      // [kg]
+  // What each engine must conserve, relative.
+  std::optional<double> energy;
+  std::optional<double> momentum;
+  std::optional<double> angular_momentum;
+  // How far each engine may be from its references.
+  ReferenceTolerances references;
 };
 
 enum class ReferenceKind { kKepler, kSpinUp, kTorqueFree, kTsiolkovsky, kStored };

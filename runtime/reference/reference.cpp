@@ -29,8 +29,10 @@ double angle_deg(const Quaterniond& a, const Quaterniond& b) {
   return angle * 180.0 / std::numbers::pi;
 }
 
-std::vector<Deviation> deviations(ReferenceKind kind, const Model& model,
-                                  std::span<const Observation> samples) {
+namespace {
+
+std::vector<Deviation> measured(ReferenceKind kind, const Model& model,
+                                std::span<const Observation> samples) {
   switch (kind) {
     case ReferenceKind::kKepler:
       return kepler_deviations(model, samples);
@@ -44,6 +46,45 @@ std::vector<Deviation> deviations(ReferenceKind kind, const Model& model,
       break;
   }
   return stored_deviations(model.stored, samples);
+}
+
+/// Nothing for `stored`, which brings its tolerances along.
+const ReferenceTolerance* tolerances_of(ReferenceKind kind, const ReferenceTolerances& all) {
+  switch (kind) {
+    case ReferenceKind::kKepler:
+      return &all.kepler;
+    case ReferenceKind::kSpinUp:
+      return &all.spin_up;
+    case ReferenceKind::kTorqueFree:
+      return &all.torque_free;
+    case ReferenceKind::kTsiolkovsky:
+      return &all.tsiolkovsky;
+    case ReferenceKind::kStored:
+      break;
+  }
+  return nullptr;
+}
+
+/// In the unit of the metric.
+std::optional<double> tolerance_of(std::string_view metric, const ReferenceTolerance& tolerance) {
+  if (metric == "position_m") return tolerance.position;
+  if (metric == "velocity_m_s") return tolerance.velocity;
+  if (metric == "rate_rad_s") return tolerance.rate;
+  if (metric == "delta_v_relative") return tolerance.delta_v;
+  if (!tolerance.attitude) return std::nullopt;
+  return *tolerance.attitude * 180.0 / std::numbers::pi;
+}
+
+}  // namespace
+
+std::vector<Deviation> deviations(ReferenceKind kind, const Model& model,
+                                  std::span<const Observation> samples) {
+  std::vector<Deviation> found = measured(kind, model, samples);
+  const ReferenceTolerance* tolerances = tolerances_of(kind, model.agreement.references);
+  if (tolerances == nullptr) return found;
+  for (Deviation& deviation : found)
+    deviation.tolerance = tolerance_of(deviation.metric, *tolerances);
+  return found;
 }
 
 }  // namespace twincraft

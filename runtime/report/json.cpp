@@ -129,10 +129,20 @@ Json against_json(const Baseline& against) {
 }
 
 Json deviation_json(const Deviation& deviation) {
-  Json json{{"max", deviation.max}, {"at_s", deviation.at}};
-  if (deviation.tolerance) json["tolerance"] = *deviation.tolerance;
-  if (deviation.tolerance) json["pass"] = *deviation.pass();
-  return json;
+  return {{"max", deviation.max},
+          {"at_s", deviation.at},
+          {"tolerance", or_null(deviation.tolerance)},
+          {"pass", or_null(deviation.pass())}};
+}
+
+Json conservation_json(const std::vector<Balance>& balances) {
+  Json conservation = Json::object();
+  for (const Balance& balance : balances)
+    conservation[balance.key] = {{"max", balance.maximum},
+                                 {"engine", balance.engine},
+                                 {"tolerance", or_null(balance.tolerance)},
+                                 {"pass", or_null(balance.pass())}};
+  return conservation;
 }
 
 Json references_json(const std::vector<ReferenceRun>& runs) {
@@ -171,6 +181,7 @@ Json member_json(const ReportedMember& member) {
   json["agreement"] = result.comparison ? agreement_json(*result.comparison) : Json::object();
   if (result.comparison) json["same_sample_times"] = result.comparison->same_times;
   if (member.against) json["against"] = against_json(*member.against);
+  json["conservation"] = conservation_json(result.conservation);
   json["references"] = references_json(result.references);
   if (result.resolution) json["resolution"] = resolution_json(result);
   if (result.timing) json["timing"] = timing_json(*result.timing);

@@ -52,15 +52,14 @@ std::string metric_cell(const ReportedMember& member, const Metric* metric) {
   return quantity(metric->maximum, words_of(metric->key, member.bundle.model).unit);
 }
 
-/// What uses most of its tolerance, and how much of it: a metric of the agreement, or an engine's
-/// deviation from a reference.
+/// What uses most of its tolerance, and how much of it: a metric of the agreement, a balance, or an
+/// engine's deviation from a reference.
 struct WorstPart {
   std::string label;
   double part = -1.0;
 
-  void see(const std::string& what, double found, std::optional<double> tolerance) {
-    if (!tolerance) return;
-    const double candidate = found == 0.0 ? 0.0 : found / *tolerance;
+  void see(const std::string& what, double found, double tolerance) {
+    const double candidate = found == 0.0 ? 0.0 : found / tolerance;
     if (std::isnan(part) || candidate <= part) return;
     part = candidate;
     label = what;
@@ -68,14 +67,11 @@ struct WorstPart {
 };
 
 std::string worst_cell(const ReportedMember& member) {
-  const Model& model = member.bundle.model;
   WorstPart worst;
-  if (member.result.comparison)
-    for (const Metric& metric : member.result.comparison->metrics)
-      worst.see(words_of(metric.key, model).label, metric.maximum, metric.tolerance);
-  for (const ReferenceRun& run : member.result.references)
-    for (const Deviation& deviation : run.deviations)
-      worst.see(run.name, deviation.max, deviation.tolerance);
+  for (const JudgedFigure& figure : member.result.judged())
+    worst.see(figure.reference.empty() ? words_of(figure.key, member.bundle.model).label
+                                       : figure.reference,
+              figure.maximum, figure.tolerance);
   return worst.label.empty() ? "-" : fmt::format("{} {:.2g}", worst.label, worst.part);
 }
 

@@ -105,18 +105,28 @@ std::string reference_block(const ReportedMember& member, bool colour) {
   return text;
 }
 
-std::string conservation_block(const Member& result) {
-  std::string text = row("conservation", "BSM", "MuJoCo", "");
-  const auto add = [&](std::string_view label, double Conservation::*imbalance) {
+double Conservation::*imbalance_of(std::string_view key) {
+  if (key == "energy_relative") return &Conservation::energy;
+  return key == "momentum_relative" ? &Conservation::momentum : &Conservation::angular_momentum;
+}
+
+std::string conservation_block(const ReportedMember& member, bool colour) {
+  const Member& result = member.result;
+  if (result.conservation.empty()) return {};
+  const auto any_judged = std::ranges::any_of(
+      result.conservation, [](const Balance& balance) { return balance.tolerance.has_value(); });
+  std::string text = row("conservation", "BSM", "MuJoCo", any_judged ? "tolerance" : "");
+  for (const Balance& balance : result.conservation) {
     const auto cell = [&](const EngineRun& run) -> std::string {
       if (run.trajectory.samples.empty()) return "-";
-      return quantity(run.conservation.*imbalance, "");
+      return quantity(run.conservation.*imbalance_of(balance.key), "");
     };
-    text += row(indented(label), cell(result.engines[0]), cell(result.engines[1]), "relative");
-  };
-  add("energy balance", &Conservation::energy);
-  add("momentum", &Conservation::momentum);
-  add("angular momentum", &Conservation::angular_momentum);
+    text += row(indented(words_of(balance.key, member.bundle.model).label), cell(result.engines[0]),
+                cell(result.engines[1]),
+                balance.tolerance ? fmt::format("{:g} relative", *balance.tolerance) : "relative",
+                result_words(balance.pass(), holds_good(result), colour));
+  }
+  if (member.bundle.model.simulation.translation) return text;
   const auto own = [](const EngineRun& run) -> std::string {
     return run.trajectory.samples.empty() ? "-" : quantity(run.own_energy.relative, "");
   };
@@ -153,7 +163,7 @@ std::string report_table(const ReportedMember& member, bool colour) {
   std::string text = heading(member.bundle.model);
   text += agreement_block(member, colour);
   text += reference_block(member, colour);
-  text += conservation_block(member.result);
+  text += conservation_block(member, colour);
   text += cost_block(member.result);
   for (const std::string& remark : remarks_of(member.result)) text += "note: " + remark + "\n";
   return text + "\n" + verdict_line(member.result, colour) + "\n";

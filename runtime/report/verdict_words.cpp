@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "runtime/report/judgement.h"
+
 namespace twincraft {
 namespace {
 
@@ -59,12 +61,6 @@ std::string unresolved_words(const Member& member) {
   return text;
 }
 
-std::string disagreement_words(const Member& member) {
-  const std::string truth = member.exceeded_reference();
-  return truth.empty() ? "the engines disagree"
-                       : fmt::format("an engine is further from `{}` than allowed", truth);
-}
-
 /// Members with this verdict.
 std::size_t count(const Report& report, Verdict verdict) {
   return static_cast<std::size_t>(std::ranges::count_if(
@@ -79,9 +75,10 @@ std::string members(std::size_t count) {
 std::string study_words(const Report& report) {
   switch (report.verdict()) {
     case Verdict::kAgree:
-      return "the engines agree in every member";
+      return held_words(report) + " in every member";
     case Verdict::kDisagree:
-      return fmt::format("the engines disagree in {}", members(count(report, Verdict::kDisagree)));
+      return fmt::format("{}, in {}", exceeded_words(report),
+                         members(count(report, Verdict::kDisagree)));
     case Verdict::kUnresolved:
       return fmt::format("unresolved: the step of {} does not resolve the vehicle",
                          members(count(report, Verdict::kUnresolved)));
@@ -102,9 +99,9 @@ std::string verdict_line(const Member& member, bool colour) {
   const Verdict verdict = member.verdict();
   switch (verdict) {
     case Verdict::kAgree:
-      return paint("the engines agree", shade_of(verdict), colour);
+      return paint(held_words(member), shade_of(verdict), colour);
     case Verdict::kDisagree:
-      return paint(disagreement_words(member), shade_of(verdict), colour);
+      return paint(exceeded_words(member), shade_of(verdict), colour);
     case Verdict::kUnresolved:
       return paint("unresolved", shade_of(verdict), colour) + ": " + unresolved_words(member);
     case Verdict::kFailed:

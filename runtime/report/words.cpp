@@ -33,6 +33,9 @@ constexpr std::array kWords{
     Entry{"pendulum_deg", "pendulum", "deg"},
     Entry{"mass_kg", "mass", "kg"},
     Entry{"delta_v_relative", "delta-v, relative", ""},
+    Entry{"energy_relative", "energy balance", ""},
+    Entry{"momentum_relative", "momentum", ""},
+    Entry{"angular_momentum_relative", "angular momentum", ""},
 };
 
 bool has(const Model& model, Kind kind) {

@@ -95,7 +95,7 @@ void add_coordinate_laws(const Model& model, std::vector<MetricLaw>& laws) {
       laws.push_back({key, unit, limit, joint_difference(std::move(joints), norm)});
   };
   add("joint_deg", kDegrees, tolerance.joint, {Kind::kPanel, Kind::kBodyAngle}, Norm::kEuclidean);
-  add("joint_m", 1.0, tolerance.joint, {Kind::kBodyDisplacement}, Norm::kEuclidean);
+  add("joint_m", 1.0, tolerance.travel, {Kind::kBodyDisplacement}, Norm::kEuclidean);
   if (!model.assembly.rotors.empty())
     laws.push_back({"wheel_rate_rad_s", 1.0, tolerance.wheel, wheel_difference});
   add("slosh_m", 1.0, tolerance.slosh, {Kind::kParticle}, Norm::kLargest);
@@ -140,15 +140,6 @@ Comparison measure_all(const std::vector<MetricLaw>& laws, const Trajectory& a,
   return comparison;
 }
 
-Verdict judge(const Comparison& comparison, bool both_complete) {
-  bool judged = false;
-  for (const Metric& metric : comparison.metrics) {
-    if (metric.pass() == false) return Verdict::kDisagree;
-    judged = judged || metric.pass().has_value();
-  }
-  return judged && both_complete && comparison.same_times ? Verdict::kAgree : Verdict::kNotJudged;
-}
-
 }  // namespace
 
 void Peak::see(double value, double time) {
@@ -161,12 +152,6 @@ void Peak::see(double value, double time) {
 std::optional<bool> Metric::pass() const {
   if (!tolerance) return std::nullopt;
   return maximum <= *tolerance;
-}
-
-std::string_view verdict_name(Verdict verdict) {
-  constexpr std::array<std::string_view, 6> kNames{"agree",      "disagree", "unresolved",
-                                                   "not_judged", "failed",   "interrupted"};
-  return kNames[static_cast<std::size_t>(verdict)];
 }
 
 double principal_angle(const Quaterniond& a, const Quaterniond& b) {
@@ -185,11 +170,7 @@ MetricCurves metric_curves(const Model& model, const Trajectory& a, const Trajec
 }
 
 Comparison compare(const Model& model, const Trajectory& a, const Trajectory& b) {
-  Comparison comparison = measure_all(laws_of(model), a, b);
-  const bool both_complete =
-      a.status == Trajectory::Status::kComplete && b.status == Trajectory::Status::kComplete;
-  comparison.verdict = judge(comparison, both_complete);
-  return comparison;
+  return measure_all(laws_of(model), a, b);
 }
 
 Comparison compare_hubs(bool translation, const Trajectory& a, const Trajectory& b) {

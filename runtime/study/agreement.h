@@ -1,14 +1,12 @@
-// Do the two engines agree? The largest difference of every physical quantity over two
-// trajectories of one model, when it occurred, and what the spec's tolerances say of it. Knows the
-// metrics of report.json and nothing of engines. A verdict needs a comparison that has run to the
-// end: half a run can disagree, but never agree.
+// How far apart are the two engines? The largest difference of every physical quantity over two
+// trajectories of one model, when it occurred, and the tolerance that the spec gives it. Knows the
+// metrics of report.json and nothing of engines.
 // Tested by tests/runtime/agreement_test.cpp.
 #pragma once
 
 #include <functional>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "runtime/study/propagate.h"
@@ -34,22 +32,9 @@ struct Metric {
   std::optional<bool> pass() const;
 };
 
-enum class Verdict {
-  kAgree,        // every judged tolerance held
-  kDisagree,     // one was exceeded
-  kUnresolved,   // the step does not resolve the vehicle: agreement says nothing
-  kNotJudged,    // no tolerance was given
-  kFailed,       // an engine stopped
-  kInterrupted,  // by a signal
-};
-
-/// `agree`, `disagree`, `unresolved`, `not_judged`, `failed`, `interrupted`
-std::string_view verdict_name(Verdict verdict);
-
 struct Comparison {
   std::vector<Metric> metrics;  // those that apply to the vehicle; none without common samples
   bool same_times = false;      // both trajectories were sampled at the same instants throughout
-  Verdict verdict = Verdict::kNotJudged;
 };
 
 /// A metric as it goes, in the unit its key ends in; valid as long as the trajectories are.

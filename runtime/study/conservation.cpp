@@ -86,4 +86,9 @@ Conservation conservation_of(const Trajectory& trajectory) {
   return {energy.maximum, momentum.maximum, angular_momentum.maximum};
 }
 
+std::optional<bool> Balance::pass() const {
+  if (!tolerance) return std::nullopt;
+  return maximum <= *tolerance;  // false for NaN
+}
+
 }  // namespace twincraft

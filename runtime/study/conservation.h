@@ -4,6 +4,9 @@
 // Tested by tests/runtime/conservation_test.cpp.
 #pragma once
 
+#include <optional>
+#include <string>
+
 #include "runtime/study/propagate.h"
 
 namespace twincraft {
@@ -32,5 +35,16 @@ class ConservationCurve {
 /// A trajectory without samples has nothing to lose: all zero. A NaN stays a NaN.
 /// @pre one entry of books per sample
 Conservation conservation_of(const Trajectory& trajectory);
+
+/// One balance of a member: the larger imbalance of its engines, and whose it is.
+struct Balance {
+  std::string key;  // `energy_relative`, as in report.json
+  double maximum = 0.0;
+  std::string engine;                    // "bsm", "mujoco"
+  std::optional<double> tolerance = {};  // nothing: reported, not judged
+
+  /// Nothing when there is no tolerance.
+  std::optional<bool> pass() const;
+};
 
 }  // namespace twincraft

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <memory>
 
 #include "compiler/ir/number.h"
@@ -180,6 +181,28 @@ std::vector<ReferenceRun> hold_against_references(const Model& model,
   return runs;
 }
 
+/// The worst of the engines that have samples, balance by balance.
+std::vector<Balance> balances(const Agreement& tolerances, const std::vector<EngineRun>& engines) {
+  std::vector<Balance> all;
+  const auto add = [&](const char* key, double Conservation::*imbalance,
+                       std::optional<double> tolerance) {
+    Balance worst{.key = key, .tolerance = tolerance};
+    for (const EngineRun& engine : engines) {
+      if (engine.trajectory.samples.empty()) continue;
+      const double found = engine.conservation.*imbalance;
+      const bool is_worse = found > worst.maximum || std::isnan(found);
+      if (!worst.engine.empty() && (!is_worse || std::isnan(worst.maximum))) continue;
+      worst.maximum = found;
+      worst.engine = engine.name;
+    }
+    if (!worst.engine.empty()) all.push_back(worst);
+  };
+  add("energy_relative", &Conservation::energy, tolerances.energy);
+  add("momentum_relative", &Conservation::momentum, tolerances.momentum);
+  add("angular_momentum_relative", &Conservation::angular_momentum, tolerances.angular_momentum);
+  return all;
+}
+
 bool ran_through(const EngineRun& engine) {
   return engine.status == Status::kOk && engine.trajectory.status == Trajectory::Status::kComplete;
 }
@@ -204,11 +227,23 @@ bool Member::failed() const {
                      [](const EngineRun& engine) { return engine.status == Status::kFailed; });
 }
 
-std::string Member::exceeded_reference() const {
+std::vector<JudgedFigure> Member::judged() const {
+  using Of = JudgedFigure::Of;
+  std::vector<JudgedFigure> figures;
+  if (comparison)
+    for (const Metric& metric : comparison->metrics)
+      if (metric.tolerance)
+        figures.push_back({Of::kAgreement, metric.key, "", "", metric.maximum, *metric.tolerance});
+  for (const Balance& balance : conservation)
+    if (balance.tolerance)
+      figures.push_back({Of::kConservation, balance.key, balance.engine, "", balance.maximum,
+                         *balance.tolerance});
   for (const ReferenceRun& run : references)
     for (const Deviation& deviation : run.deviations)
-      if (deviation.pass() == false) return run.name;
-  return {};
+      if (deviation.tolerance)
+        figures.push_back({Of::kReference, deviation.metric, run.engine, run.name, deviation.max,
+                           *deviation.tolerance});
+  return figures;
 }
 
 bool Member::interrupted() const { return !complete && !refused && !failed(); }
@@ -219,8 +254,7 @@ Verdict Member::verdict() const {
   if (failed()) return Verdict::kFailed;
   if (interrupted()) return Verdict::kInterrupted;
   if (unresolved()) return Verdict::kUnresolved;
-  if (!exceeded_reference().empty()) return Verdict::kDisagree;
-  return comparison ? comparison->verdict : Verdict::kNotJudged;
+  return judge(judged(), complete && (!comparison || comparison->same_times));
 }
 
 Member refused_member(const std::string& reason) {
@@ -246,6 +280,7 @@ Member run_member(const Bundle& bundle, const RunOptions& options) {
   judge_member(bundle.model, inspection, member);
   if (!bsm.trajectory.samples.empty() && !mujoco.trajectory.samples.empty())
     member.comparison = compare(bundle.model, bsm.trajectory, mujoco.trajectory);
+  member.conservation = balances(bundle.model.agreement, member.engines);
   member.references = hold_against_references(bundle.model, member.engines);
   const bool runs_complete = !stopped(options) && !member.failed();
   if (options.trials > 0 && runs_complete)

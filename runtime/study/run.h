@@ -16,6 +16,7 @@
 #include "runtime/study/agreement.h"
 #include "runtime/study/conservation.h"
 #include "runtime/study/timing.h"
+#include "runtime/study/verdict.h"
 
 namespace twincraft {
 
@@ -48,6 +49,7 @@ struct ReferenceRun {
 struct Member {
   std::vector<EngineRun> engines;        // always bsm, mujoco
   std::optional<Comparison> comparison;  // when both ran
+  std::vector<Balance> conservation;     // of what ran: energy, momentum, angular momentum
   std::vector<ReferenceRun> references;
   std::optional<Timing> timing;          // when asked for and the runs succeeded
   std::optional<Resolution> resolution;  // when an engine flew
@@ -55,10 +57,10 @@ struct Member {
   bool complete = false;                 // everything asked for was computed to its end
   bool refused = false;                  // nothing was run: the engines say why
 
-  /// The first that holds of interrupted, failed, unresolved, disagree, agree, not judged.
+  /// Every figure that has a tolerance: agreement, conservation, references, in this order.
+  std::vector<JudgedFigure> judged() const;
+  /// The first that holds of failed, interrupted, unresolved, disagree, agree, not judged.
   Verdict verdict() const;
-  /// The first reference whose tolerance an engine exceeded; empty when none was.
-  std::string exceeded_reference() const;
   bool failed() const;       // an engine failed numerically
   bool interrupted() const;  // a signal came before all was done
   bool unresolved() const;   // and that is judged

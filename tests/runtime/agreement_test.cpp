@@ -1,6 +1,4 @@
 // Claims about the metrics and the verdict, on trajectories written by hand.
-#include "runtime/study/agreement.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "runtime/study/run.h"
 #include "tests/runtime/handmade.h"
 
 namespace twincraft {
@@ -34,7 +33,13 @@ class Comparing : public testing::Test {
     if (found == nullptr) throw std::out_of_range(key);
     return *found;
   }
-  Verdict verdict() { return compare(model, a, b).verdict; }
+  Verdict verdict() {
+    Member member;
+    member.comparison = compare(model, a, b);
+    member.complete =
+        a.status == Trajectory::Status::kComplete && b.status == Trajectory::Status::kComplete;
+    return member.verdict();
+  }
 
   Model model = test::model_of_every_kind();
   Trajectory a = test::standstill(model);
@@ -85,7 +90,7 @@ TEST_F(Comparing, HoldsHubsOfUnlikeVehiclesAgainstEachOther) {
   other.samples[1].q_BN = turn(0.25, {0, 0, 1});
   const Comparison hubs = compare_hubs(false, a, other);
   EXPECT_TRUE(hubs.same_times);
-  EXPECT_EQ(hubs.verdict, Verdict::kNotJudged);
+  for (const Metric& metric : hubs.metrics) EXPECT_EQ(metric.tolerance, std::nullopt);
   ASSERT_NE(find(hubs, "attitude_deg"), nullptr);
   EXPECT_NEAR(find(hubs, "attitude_deg")->maximum, 0.25 * kDegrees, 1e-12);
   EXPECT_EQ(find(hubs, "attitude_deg")->at, 0.5);
@@ -126,6 +131,19 @@ TEST_F(Comparing, TakesTheWorstPendulumAngleAndEveryLengthInMetres) {
   EXPECT_NEAR(metric("pendulum_deg").maximum, 4.0e-6 * kDegrees, 1.0e-18);
   EXPECT_EQ(metric("joint_m").maximum, 0.25);
   EXPECT_EQ(metric("slosh_m").maximum, 0.5);
+}
+
+TEST_F(Comparing, JudgesAnglesByJointAndDisplacementsByTravel) {
+  model.agreement.joint = 1.0e-9;
+  model.agreement.travel = 1.0e-3;
+  b.samples[1].joint_position[3] = 0.9e-3;  // `rail`
+  EXPECT_EQ(metric("joint_m").tolerance, 1.0e-3);
+  EXPECT_NEAR(*metric("joint_deg").tolerance, 1.0e-9 * kDegrees, 1.0e-22);
+  EXPECT_EQ(verdict(), Verdict::kAgree);
+  b.samples[1].joint_position[3] = 1.1e-3;
+  EXPECT_EQ(verdict(), Verdict::kDisagree);
+  model.agreement.travel.reset();
+  EXPECT_EQ(verdict(), Verdict::kAgree);
 }
 
 TEST_F(Comparing, LeavesOutMetricsThatDoNotApply) {
@@ -195,7 +213,7 @@ TEST_F(Comparing, ComparesOnlySamplesOfTheSameInstant) {
   b.samples[2].r_CN_N.x() = 1.0;
   comparison = compare(model, a, b);
   EXPECT_FALSE(comparison.same_times);
-  EXPECT_EQ(comparison.verdict, Verdict::kNotJudged);
+  EXPECT_EQ(verdict(), Verdict::kNotJudged);
   EXPECT_EQ(find(comparison, "com_position_m")->maximum, 0.0);
 }
 
@@ -205,7 +223,7 @@ TEST_F(Comparing, OfNothingIsNotJudged) {
   comparison = compare(model, a, b);
   EXPECT_TRUE(comparison.metrics.empty());
   EXPECT_FALSE(comparison.same_times);
-  EXPECT_EQ(comparison.verdict, Verdict::kNotJudged);
+  EXPECT_EQ(verdict(), Verdict::kNotJudged);
 }
 
 }  // namespace

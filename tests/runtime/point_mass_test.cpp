@@ -97,7 +97,10 @@ TEST(PointMass, IsComparedWithoutAttitude) {
   for (const Metric& metric : comparison.metrics) keys.push_back(metric.key);
   EXPECT_THAT(keys,
               testing::ElementsAre("position_m", "velocity_m_s", "com_position_m", "mass_kg"));
-  EXPECT_EQ(comparison.verdict, Verdict::kAgree);
+  Member member;
+  member.comparison = comparison;
+  member.complete = true;
+  EXPECT_EQ(member.verdict(), Verdict::kAgree);
 }
 
 TEST(PointMass, KeepsItsErrorControlWithAnAdaptiveMethod) {

@@ -54,6 +54,9 @@ Report sound_report() {
   result.engines = {engine_run("bsm", model), engine_run("mujoco", model)};
   result.engines[1].trajectory.samples[1].omega_BN_B.x() = 2.5e-13;
   result.comparison = compare(model, result.engines[0].trajectory, result.engines[1].trajectory);
+  result.conservation = {{"energy_relative", 1.0e-13, "bsm"},
+                         {"momentum_relative", 2.0e-14, "bsm", 1.0e-12},
+                         {"angular_momentum_relative", 3.0e-15, "bsm"}};
   result.references = {{"kepler", "bsm", {{"position_m", 0.5, 1.0}}}};
   result.timing = Timing{3, {{"bsm", {1.0, 2.0, 3.0}, 1000}, {"mujoco", {8.0, 8.0, 8.0}, 1000}}};
   result.complete = true;
@@ -125,7 +128,28 @@ TEST(ReportJson, GivesEachEngineItsFinalStateByName) {
 
 TEST(ReportJson, GivesReferencesByNameAndEngine) {
   const json references = parsed(sound_report())["members"][0]["references"];
-  EXPECT_EQ(references["kepler"]["bsm"]["position_m"], (json{{"max", 0.5}, {"at_s", 1.0}}));
+  EXPECT_EQ(references["kepler"]["bsm"]["position_m"],
+            (json{{"max", 0.5}, {"at_s", 1.0}, {"tolerance", nullptr}, {"pass", nullptr}}));
+  Report judged = sound_report();
+  judged.members[0].result.references[0].deviations[0].tolerance = 0.25;
+  EXPECT_EQ(parsed(judged)["members"][0]["references"]["kepler"]["bsm"]["position_m"],
+            (json{{"max", 0.5}, {"at_s", 1.0}, {"tolerance", 0.25}, {"pass", false}}));
+  EXPECT_EQ(parsed(judged)["verdict"], "disagree");
+}
+
+TEST(ReportJson, GivesEveryBalanceItsWorstEngineToleranceAndPass) {
+  Report report = sound_report();
+  report.members[0].result.conservation[2] = {"angular_momentum_relative", 5.0e-12, "mujoco",
+                                              1.0e-12};
+  const json conservation = parsed(report)["members"][0]["conservation"];
+  EXPECT_EQ(conservation["energy_relative"],
+            (json{{"max", 1.0e-13}, {"engine", "bsm"}, {"tolerance", nullptr}, {"pass", nullptr}}));
+  EXPECT_EQ(conservation["momentum_relative"],
+            (json{{"max", 2.0e-14}, {"engine", "bsm"}, {"tolerance", 1.0e-12}, {"pass", true}}));
+  EXPECT_EQ(
+      conservation["angular_momentum_relative"],
+      (json{{"max", 5.0e-12}, {"engine", "mujoco"}, {"tolerance", 1.0e-12}, {"pass", false}}));
+  EXPECT_EQ(parsed(report)["verdict"], "disagree");
 }
 
 TEST(ReportJson, GivesTrialsMedianAndRatio) {
@@ -142,6 +166,7 @@ TEST(ReportJson, SaysWhyAnEngineWasSkippedAndNothingElseOfIt) {
   Member& result = report.members[0].result;
   result.engines[1] = {"mujoco", EngineRun::Status::kSkipped, "a chain too deep", {}, {}};
   result.comparison.reset();
+  result.conservation.clear();
   result.timing.reset();
   const json member = parsed(report)["members"][0];
   EXPECT_EQ(member["engines"]["mujoco"],
@@ -167,8 +192,9 @@ TEST(ReportVerdict, NeedsEveryMemberToAgree) {
   report.members.push_back(report.members[0]);
   EXPECT_EQ(report.verdict(), Verdict::kAgree);
   report.members[1].result.comparison.reset();
+  report.members[1].result.conservation.clear();
   EXPECT_EQ(report.verdict(), Verdict::kNotJudged);
-  report.members[0].result.comparison->verdict = Verdict::kDisagree;
+  report.members[0].result.comparison->metrics[0].tolerance = -1.0;
   EXPECT_EQ(report.verdict(), Verdict::kDisagree);
 }
 
@@ -249,6 +275,35 @@ TEST(Table, GivesReferencesALinePerEngine) {
   EXPECT_THAT(table, HasSubstr("  kepler position    5.0e-01 m      1.00 s      BSM\n"));
 }
 
+TEST(Table, GivesBalancesTheirToleranceAndJudgement) {
+  const std::string table = report_table(sound_report().members[0], false);
+  EXPECT_THAT(table, HasSubstr("conservation         BSM            MuJoCo      tolerance\n"));
+  EXPECT_THAT(table, HasSubstr("  energy balance     1.0e-13        1.0e-13     relative\n"));
+  EXPECT_THAT(table, HasSubstr("  momentum           2.0e-14        2.0e-14     1e-12 relative   "
+                               "ok\n"));
+}
+
+TEST(Table, NamesEveryKindOfToleranceThatWasBroken) {
+  Report report = sound_report();
+  Member& result = report.members[0].result;
+  result.references[0].deviations[0].tolerance = 0.25;
+  EXPECT_THAT(report_table(report.members[0], false),
+              HasSubstr("5.0e-01 m      1.00 s      BSM              0.25 m         EXCEEDED\n"));
+  EXPECT_THAT(report_table(report.members[0], false),
+              HasSubstr("\nan engine is further from `kepler` than allowed\n"));
+  result.conservation[0] = {"energy_relative", 1.0, "mujoco", 1.0e-9};
+  result.comparison->metrics[0].tolerance = -1.0;
+  EXPECT_THAT(report_table(report.members[0], false),
+              HasSubstr("\nthe engines disagree; the energy balance of MuJoCo exceeds its "
+                        "tolerance; an engine is further from `kepler` than allowed\n"));
+}
+
+TEST(Table, SaysThatTheEnginesAgreeOnlyWhereAgreementWasJudged) {
+  Report report = sound_report();
+  report.members[0].result.comparison->metrics[1].tolerance.reset();
+  EXPECT_THAT(report_table(report.members[0], false), HasSubstr("\nevery tolerance held\n"));
+}
+
 TEST(Table, ComparesCosts) {
   const std::string table = report_table(sound_report().members[0], false);
   EXPECT_THAT(table, HasSubstr("  BSM                2 ms           2 s         8\n"));
@@ -271,6 +326,7 @@ TEST(Table, SaysWhyNothingWasJudged) {
   Member& result = report.members[0].result;
   result.engines[1] = {"mujoco", EngineRun::Status::kSkipped, "a chain too deep", {}, {}};
   result.comparison.reset();
+  result.conservation.clear();
   EXPECT_THAT(report_table(report.members[0], false),
               HasSubstr("not judged; MuJoCo: a chain too deep\n"));
 }

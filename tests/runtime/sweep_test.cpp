@@ -59,7 +59,7 @@ ReportedMember member_with(std::vector<Setting> settings, double attitude_deg) {
   ReportedMember member;
   member.bundle.model = test::model_of_every_kind();
   member.settings = std::move(settings);
-  member.result.comparison = Comparison{{{"attitude_deg", attitude_deg, 0.0, {}}}, true, {}};
+  member.result.comparison = Comparison{{{"attitude_deg", attitude_deg, 0.0, {}}}, true};
   return member;
 }
 

@@ -10,6 +10,7 @@
 #include "runtime/report/html/assets.h"
 #include "runtime/report/html/base64.h"
 #include "runtime/report/html/page_data.h"
+#include "runtime/report/judgement.h"
 #include "runtime/report/study_table.h"
 #include "runtime/report/table.h"
 
@@ -51,12 +52,17 @@ class Policy {
   std::string scripts_, styles_;
 };
 
+std::string capitalised(std::string text) {
+  if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 32);
+  return text;
+}
+
 std::string verdict_words(const Report& report) {
   switch (report.verdict()) {
     case Verdict::kAgree:
-      return report.study ? "The engines agree in every member" : "The engines agree";
+      return capitalised(held_words(report)) + (report.study ? " in every member" : "");
     case Verdict::kDisagree:
-      return "The engines disagree";
+      return capitalised(exceeded_words(report));
     case Verdict::kNotJudged:
       break;
   }
@@ -124,7 +130,7 @@ std::string report_html(const Report& report) {
   places["POLICY"] = policy.text();
   places["NAME"] = html_escaped(first.bundle.model.name);
   places["DESCRIPTION"] = html_escaped(first.bundle.model.description);
-  places["VERDICT"] = verdict_words(report);
+  places["VERDICT"] = html_escaped(verdict_words(report));
   places["VERDICT_KEY"] = verdict_name(report.verdict());
   places["PLAIN"] = html_escaped(plain_text(report));
   places["DYGRAPHS_LICENCE"] = html_escaped(assets::dygraphs_licence());

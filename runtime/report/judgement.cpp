@@ -1,0 +1,61 @@
+// See judgement.h.
+#include "runtime/report/judgement.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "runtime/report/words.h"
+
+namespace twincraft {
+namespace {
+
+using Of = JudgedFigure::Of;
+
+std::string clause_of(const JudgedFigure& figure) {
+  switch (figure.of) {
+    case Of::kAgreement:
+      return "the engines disagree";
+    case Of::kConservation:
+      return fmt::format("the {} of {} exceeds its tolerance", words_of(figure.key, {}).label,
+                         figure.engine == "bsm" ? "BSM" : "MuJoCo");
+    case Of::kReference:
+      break;
+  }
+  return fmt::format("an engine is further from `{}` than allowed", figure.reference);
+}
+
+bool judges_agreement(const Member& member) {
+  return std::ranges::any_of(
+      member.judged(), [](Of of) { return of == Of::kAgreement; }, &JudgedFigure::of);
+}
+
+}  // namespace
+
+std::string exceeded_words(const Member& member) {
+  std::vector<std::string> clauses;
+  for (const JudgedFigure& figure : member.judged()) {
+    if (figure.held()) continue;
+    std::string clause = clause_of(figure);
+    if (std::ranges::find(clauses, clause) == clauses.end()) clauses.push_back(std::move(clause));
+  }
+  return fmt::format("{}", fmt::join(clauses, "; "));
+}
+
+std::string exceeded_words(const Report& report) {
+  for (const ReportedMember& member : report.members)
+    if (std::string words = exceeded_words(member.result); !words.empty()) return words;
+  return {};
+}
+
+std::string held_words(const Member& member) {
+  return judges_agreement(member) ? "the engines agree" : "every tolerance held";
+}
+
+std::string held_words(const Report& report) {
+  const bool all = std::ranges::all_of(
+      report.members, [](const ReportedMember& one) { return judges_agreement(one.result); });
+  return all ? "the engines agree" : "every tolerance held";
+}
+
+}  // namespace twincraft
