@@ -148,16 +148,16 @@ Agreement lower(const AgreementSpec& spec) {
                       spec.angular_momentum,
                       {}};
   const ReferenceTolerancesSpec& from = spec.references;
-  const auto rotation = [](const RotationToleranceSpec& one) {
-    return ReferenceTolerance{.attitude = one.attitude, .rate = one.rate};
-  };
-  agreement.references = {
-      .kepler = {.position = from.kepler.position, .velocity = from.kepler.velocity},
-      .spin_up = rotation(from.spin_up),
-      .torque_free = rotation(from.torque_free),
-      .tsiolkovsky = {.position = from.tsiolkovsky.position,
-                      .velocity = from.tsiolkovsky.velocity,
-                      .delta_v = from.tsiolkovsky.delta_v}};
+  ReferenceTolerances& to = agreement.references;
+  to.kepler.position = from.kepler.position;
+  to.kepler.velocity = from.kepler.velocity;
+  to.spin_up.attitude = from.spin_up.attitude;
+  to.spin_up.rate = from.spin_up.rate;
+  to.torque_free.attitude = from.torque_free.attitude;
+  to.torque_free.rate = from.torque_free.rate;
+  to.tsiolkovsky.position = from.tsiolkovsky.position;
+  to.tsiolkovsky.velocity = from.tsiolkovsky.velocity;
+  to.tsiolkovsky.delta_v = from.tsiolkovsky.delta_v;
   return agreement;
 }
 

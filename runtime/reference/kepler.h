@@ -1,6 +1,7 @@
 // The two-body problem: the path of the system centre of mass under point gravity alone.
 // Lagrange's f and g from the first sample, over the difference of eccentric anomaly, so that
-// circular and equatorial orbits are nothing special. Exact for the law `system_com` always, for
+// circular and equatorial orbits are nothing special, and in a form that keeps its digits up to the
+// parabola. Exact for the law `system_com` always, for
 // the others when all mass is at one point.  Tested by tests/runtime/reference_test.cpp.
 #pragma once
 
@@ -29,11 +30,12 @@ class KeplerOrbit {
 
   Vector r0_, v0_;
   Real mu_;
-  Real radius_;   // |r0|
-  Real a_;        // semi-major axis
-  Real n_;        // mean motion [rad/s]
-  Real e_cos_E_;  // e cos E0
-  Real e_sin_E_;  // e sin E0
+  Real radius_;    // |r0|
+  Real a_;         // semi-major axis
+  Real n_;         // mean motion [rad/s]
+  Real r_over_a_;  // 1 - e cos E0
+  Real e_cos_E_;   // e cos E0
+  Real e_sin_E_;   // e sin E0
 };
 
 /// `position_m` and `velocity_m_s` of the system centre of mass.

@@ -13,10 +13,13 @@ SpinUp spin_up_of(const Model& model) {
   const Vector3d& omega = model.initial.omega_BN_B;
   const bool turns = !omega.isZero(0.0);
   if (!turns && torque.isZero(0.0)) return {};
-  SpinUp spin_up{.axis_B = (turns ? omega : torque).normalized()};
-  spin_up.rate = spin_up.axis_B.dot(omega);
-  spin_up.acceleration =
-      spin_up.axis_B.dot(torque) / spin_up.axis_B.dot(hub.I_PntC_L * spin_up.axis_B);
+  using Vector = Eigen::Matrix<long double, 3, 1>;
+  const Vector along = (turns ? omega : torque).cast<long double>();
+  const Vector axis = along / along.stableNorm();
+  SpinUp spin_up{.axis_B = axis.cast<double>()};
+  spin_up.rate = axis.dot(omega.cast<long double>());
+  const long double moment = axis.dot(hub.I_PntC_L.cast<long double>() * axis);
+  spin_up.acceleration = axis.dot(torque.cast<long double>()) / moment;
   return spin_up;
 }
 

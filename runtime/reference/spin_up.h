@@ -10,10 +10,13 @@ namespace twincraft {
 
 struct SpinUp {
   Vector3d axis_B = Vector3d::UnitZ();  // principal, unit
-  double rate = 0.0;                    // omega(0) about it [rad/s]
-  double acceleration = 0.0;            // L/I [rad/s^2]
+  // After thousands of turns the rounding of a double would show in the angle.
+  long double rate = 0.0L;          // omega(0) about the axis [rad/s]
+  long double acceleration = 0.0L;  // L/I [rad/s^2]
 
-  Vector3d omega_BN_B(double time) const { return (rate + acceleration * time) * axis_B; }
+  Vector3d omega_BN_B(double time) const {
+    return static_cast<double>(rate + acceleration * static_cast<long double>(time)) * axis_B;
+  }
   /// The turn since t = 0, B(t) to B(0) components.
   Quaterniond turn(double time) const;
 };

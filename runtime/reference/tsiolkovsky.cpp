@@ -2,6 +2,7 @@
 #include "runtime/reference/tsiolkovsky.h"
 
 #include <cmath>
+#include <limits>
 
 namespace twincraft {
 
@@ -18,19 +19,28 @@ Rocket::Rocket(const Model& model) {
   }
 }
 
+namespace {
+
+/// (x + (1 - x) ln(1 - x)) / x^2, which is 1/2 + x/6 + x^2/12 + ..., of a burnt share x in [0, 1).
+long double path_factor(long double x) {
+  if (x > 0.25L) return (x + (1.0L - x) * std::log1p(-x)) / (x * x);
+  long double power = 1.0L, sum = 0.5L;
+  for (int k = 3; power > std::numeric_limits<long double>::epsilon(); ++k) {
+    power *= x;
+    sum += power / static_cast<long double>(k * (k - 1));
+  }
+  return sum;
+}
+
+}  // namespace
+
 Rocket::Gain Rocket::after(const Phase& phase, double time) {
-  // Of the burnt share x = mdot t / m, in a form that is good for any x: ln(1/(1 - x)) is
-  // -log1p(-x) and t - m1/mdot ln(m0/m1) is  m/mdot (x + (1 - x) log1p(-x)), whose two terms cancel
-  // to x^2/2.
+  // Of the burnt share x = mdot t / m: ln(m0/m1) is -log1p(-x), and t - m1/mdot ln(m0/m1) is
+  // m/mdot (x + (1 - x) log1p(-x)), whose terms would cancel to x^2/2 when x is small.
   const long double t = static_cast<long double>(time) - phase.start;
   const long double x = phase.flow * t / phase.mass;
-  long double velocity = t / phase.mass;
-  long double position = 0.5L * t * t / phase.mass;
-  if (x > 0.0L) {
-    const long double log = std::log1p(-x);
-    velocity = -log / phase.flow;
-    position = phase.mass / phase.flow * (x + (1.0L - x) * log) / phase.flow;
-  }
+  const long double velocity = x > 0.0L ? -std::log1p(-x) / phase.flow : t / phase.mass;
+  const long double position = t * t / phase.mass * path_factor(x);
   Gain gain = phase.before;
   gain.velocity += static_cast<double>(velocity) * phase.force_B;
   gain.position += static_cast<double>(t) * phase.before.velocity +

@@ -62,8 +62,15 @@ TEST(Tsiolkovsky, IsGoodForBurntSharesOfAnySize) {
   model.tanks[0].mass_flow = Schedule::constant(1.0e-9);
   model.loads[0].force_L[0] = Schedule::constant(1.0);
   const Rocket::Gain gain = Rocket(model).at(200.0);
-  EXPECT_NEAR(gain.velocity.x(), 0.2 * (1.0 + 1.0e-10), 1.0e-15);  // F t/m (1 + x/2)
-  EXPECT_NEAR(gain.position.x(), 20.0, 2.0e-6);  // its terms cancel to 1e-10 of themselves
+  EXPECT_NEAR(gain.velocity.x(), 0.2 * (1.0 + 1.0e-10), 1.0e-15);         // F t/m (1 + x/2)
+  EXPECT_NEAR(gain.position.x(), 20.0 * (1.0 + 2.0e-10 / 3.0), 1.0e-14);  // F t^2/2m (1 + x/3)
+  // The series and the logarithm meet where a quarter is burnt: F/mdot^2 (m - m1 (1 + ln(m/m1))).
+  model.tanks[0].mass_flow = Schedule::constant(1.0);
+  for (const double time : {249.0, 250.0, 251.0}) {
+    const double left = 1000.0 - time;
+    const double travelled = time + left * std::log(left / 1000.0);
+    EXPECT_NEAR(Rocket(model).at(time).position.x(), travelled, 1.0e-12) << time;
+  }
 }
 
 TEST(Tsiolkovsky, FindsWhatIsWrongInASample) {
