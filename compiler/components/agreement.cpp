@@ -129,7 +129,7 @@ void check(const AgreementSpec& agreement, const std::vector<ReferenceKind>& ref
         .warning(
             Code::kReferenceNotListed, agreement.references.span_of(name),
             fmt::format("these tolerances judge nothing: `references` does not list `{}`", name))
-        .with_hint(fmt::format("add `references: [{}]`, or delete the tolerances", name));
+        .with_hint("list it in `references`, or delete its tolerances");
   }
 }
 

@@ -40,7 +40,7 @@ Conservation conservation_of(const Trajectory& trajectory);
 struct Balance {
   std::string key;  // `energy_relative`, as in report.json
   double maximum = 0.0;
-  std::string engine;                    // "bsm", "mujoco"
+  std::string engine = {};               // "bsm", "mujoco"
   std::optional<double> tolerance = {};  // nothing: reported, not judged
 
   /// Nothing when there is no tolerance.

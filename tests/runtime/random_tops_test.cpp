@@ -84,7 +84,7 @@ class Tops {
     Vector3d& I = top.moments;
     std::sort(order.begin(), order.end(), [&](auto a, auto b) { return I[a] < I[b]; });
     const auto [least, middle, most] = order;
-    const double off = (any() < 0.0 ? -1.0 : 1.0) * small(-14.0) * 0.1;
+    const double off = (any() < 0.0 ? -1.0 : 1.0) * 0.1 * small(-13.0);
     const double ratio = I[most] * (I[most] - I[middle]) / (I[least] * (I[middle] - I[least]));
     top.omega[least] = top.omega[most] * std::sqrt(ratio * (1.0 + off));
     top.omega.normalize();
