@@ -40,8 +40,9 @@ JacobiFunctions lower_half(Real u, Real complement) {
 
 JacobiFunctions jacobi(Real u, Real to_quarter, Real complement) {
   const Real size = std::abs(u);
-  JacobiFunctions at = lower_half(std::min(size, to_quarter), complement);
-  if (to_quarter < size) at = {at.cn / at.dn, complement * at.sn / at.dn, complement / at.dn};
+  const Real rest = std::max(to_quarter, 0.0L);  // its rounding may have passed K
+  JacobiFunctions at = lower_half(std::min(size, rest), complement);
+  if (rest < size) at = {at.cn / at.dn, complement * at.sn / at.dn, complement / at.dn};
   at.sn = std::copysign(at.sn, u);
   return at;
 }

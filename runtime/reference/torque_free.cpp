@@ -20,15 +20,15 @@ T squared(const T& x) {
   return x * x;
 }
 
-/// Symmetric matrix, its eigenvectors as columns.
+/// A symmetric matrix on its way to a diagonal one, and the eigenvectors, as columns.
 template <class Exact>
-struct Eigen3 {
+struct Diagonalised {
   std::array<std::array<Exact, 3>, 3> matrix, vectors;
 };
 
 /// One rotation of Jacobi's method, which zeroes the element (p, q).
 template <class Exact>
-void rotate(Eigen3<Exact>& at, std::size_t p, std::size_t q) {
+void rotate(Diagonalised<Exact>& at, std::size_t p, std::size_t q) {
   auto& m = at.matrix;
   const Exact theta = (m[q][q] - m[p][p]) / (2 * m[p][q]);
   const Exact size = 1 / (abs(theta) + sqrt(squared(theta) + 1));
@@ -51,8 +51,8 @@ void rotate(Eigen3<Exact>& at, std::size_t p, std::size_t q) {
 
 /// Leaves a diagonal matrix exactly as it is.
 template <class Exact>
-Eigen3<Exact> diagonalised(const Matrix3d& symmetric) {
-  Eigen3<Exact> at;
+Diagonalised<Exact> diagonalised(const Matrix3d& symmetric) {
+  Diagonalised<Exact> at;
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = 0; j < 3; ++j) {
       const auto row = static_cast<Eigen::Index>(std::min(i, j));
@@ -106,7 +106,7 @@ EulerTop::EulerTop(const Matrix3d& I_PntC_B, const Vector3d& omega_BN_B, const Q
 }
 
 void EulerTop::order_axes(const Matrix3d& I_PntC_B, const Vector3d& omega_BN_B) {
-  const Eigen3<Exact> principal = diagonalised<Exact>(I_PntC_B);
+  const Diagonalised<Exact> principal = diagonalised<Exact>(I_PntC_B);
   const auto moment = [&](std::size_t axis) { return principal.matrix[axis][axis]; };
   const auto rate = [&](std::size_t axis) {
     Exact sum = 0;

@@ -67,7 +67,7 @@ class EulerTop {
   int turn_axis_ = 2;      // whose projection across H is the hand of the turn
   Exact turn_rate_;        // [rad/s]
   Exact turn_factor_;      // [rad]
-  Exact N_;                // in [0, 1], up to a ratio of moments
+  Exact N_;                // in [0, 1]
   Exact turn_at_start_;    // P(epsilon)
   Exact turn_in_quarter_;  // P(K)
   Matrix dcm_NH_;          // of the momentum's frame at t = 0 to N

@@ -62,6 +62,58 @@ TEST_F(Truth, ShowsTheArtefactOfTheInertialFrameInCase9a) {
   EXPECT_NEAR(stored["mujoco"]["attitude_deg"]["max"], 1.0e-2, 2.0e-3);
 }
 
+TEST_F(Truth, JudgesClosedFormsByTheTolerancesOfTheSpec) {
+  EXPECT_EQ(run("gallery/tumble.yaml").exit_code, 0);
+  EXPECT_EQ(report()["verdict"], "agree");
+  const json attitude = references()["torque_free"]["mujoco"]["attitude_deg"];
+  EXPECT_NEAR(attitude["tolerance"], 1.0e-8, 1.0e-22);
+  EXPECT_EQ(attitude["pass"], true);
+  const ProgramResult result =
+      run("gallery/tumble.yaml", {"--set", "agreement.references.torque_free.attitude=0"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.out, HasSubstr("\nan engine is further from `torque_free` than allowed\n"));
+  EXPECT_EQ(references()["torque_free"]["bsm"]["attitude_deg"]["pass"], false);
+  EXPECT_EQ(references()["torque_free"]["bsm"]["rate_rad_s"]["pass"], true);
+}
+
+TEST_F(Truth, FindsTheTumbleWithAZeroRateThatItOnceMissed) {
+  // The attitude was 23 deg off at t = 0, the rate 0.04 rad/s.
+  const ProgramResult result =
+      run("gallery/tumble.yaml",
+          {"--set", "hub.inertia=[10, 12, 15]", "--set", "hub.center_of_mass=[0, 0, 0]", "--set",
+           "initial.rate=[0, 0.1, 0.02]", "--duration", "100 s"});
+  EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+}
+
+TEST_F(Truth, JudgesWhatEachEngineConserves) {
+  const std::vector<std::string> brief{"--duration", "2 s", "--set"};
+  const auto with = [&brief](const std::string& setting, std::vector<std::string> more = {}) {
+    more.insert(more.begin(), brief.begin(), brief.end());
+    more.insert(more.begin() + 3, setting);
+    return more;
+  };
+  EXPECT_EQ(run("quickstart.yaml", with("agreement.energy=1e-6")).exit_code, 0);
+  json conservation = report()["members"][0]["conservation"];
+  EXPECT_EQ(conservation["energy_relative"]["pass"], true);
+  EXPECT_EQ(conservation["momentum_relative"]["tolerance"], nullptr);
+  for (const char* engine : {"bsm", "mujoco"})
+    EXPECT_LE(report()["members"][0]["engines"][engine]["conservation"]["energy_relative"],
+              conservation["energy_relative"]["max"]);
+
+  const ProgramResult broken = run("quickstart.yaml", with("agreement.energy=1e-30"));
+  EXPECT_EQ(broken.exit_code, 1);
+  EXPECT_EQ(report()["verdict"], "disagree");
+  conservation = report()["members"][0]["conservation"];
+  EXPECT_EQ(conservation["energy_relative"]["pass"], false);
+  EXPECT_THAT(broken.out, HasSubstr("\nthe energy balance of "));
+
+  const ProgramResult alone =
+      run("quickstart.yaml", with("agreement.energy=1e-6", {"--engine", "bsm"}));
+  EXPECT_EQ(alone.exit_code, 0);
+  EXPECT_EQ(report()["verdict"], "agree") << "of what one engine can be judged by";
+  EXPECT_THAT(alone.out, HasSubstr("\nevery tolerance held\n"));
+}
+
 TEST_F(Truth, FindsTheOrderOfTheMethodInASweepAndSaysWhatExceeds) {
   const std::string base = TWINCRAFT_ROOT "/models/nesc/case_8a.yaml";
   std::ifstream in(base);

@@ -80,6 +80,49 @@ TEST(Agreement, JudgesOnlyWhatHasATolerance) {
   EXPECT_EQ(trial.model->agreement.rate, std::nullopt);
 }
 
+TEST(Agreement, JudgesAnglesAndTravelInUnitsOfTheirOwn) {
+  const Trial trial(brick_with("agreement: {joint: 1 deg, travel: 1 mm}\n"));
+  ASSERT_TRUE(trial.model);
+  EXPECT_DOUBLE_EQ(trial.model->agreement.joint.value(), kDegree);
+  EXPECT_DOUBLE_EQ(trial.model->agreement.travel.value(), 1.0e-3);
+  EXPECT_THAT(Trial(brick_with("agreement: {joint: 1 mm}\n")).codes(),
+              ElementsAre(Code::kBadQuantity));
+  EXPECT_THAT(Trial(brick_with("agreement: {travel: 1 deg}\n")).codes(),
+              ElementsAre(Code::kBadQuantity));
+}
+
+TEST(Agreement, JudgesBalancesByPlainNumbers) {
+  const Trial trial(brick_with("agreement: {energy: 1.0e-9, momentum: 0, angular_momentum: 2}\n"));
+  ASSERT_TRUE(trial.model);
+  EXPECT_EQ(trial.model->agreement.energy, 1.0e-9);
+  EXPECT_EQ(trial.model->agreement.momentum, 0.0);
+  EXPECT_EQ(trial.model->agreement.angular_momentum, 2.0);
+  EXPECT_THAT(Trial(brick_with("agreement: {energy: -1}\n")).codes(),
+              ElementsAre(Code::kOutOfRange));
+}
+
+TEST(Agreement, GivesEveryReferenceTolerancesOfItsOwn) {
+  const Trial trial(brick_with(
+      "references: [torque_free, spin_up]\n"
+      "agreement: {references: {torque_free: {attitude: 1 deg}, spin_up: {rate: 2 rad/s}}}\n"));
+  ASSERT_TRUE(trial.model);
+  EXPECT_THAT(trial.faults(), IsEmpty());
+  const ReferenceTolerances& tolerances = trial.model->agreement.references;
+  EXPECT_DOUBLE_EQ(tolerances.torque_free.attitude.value(), kDegree);
+  EXPECT_EQ(tolerances.torque_free.rate, std::nullopt);
+  EXPECT_EQ(tolerances.spin_up.rate, 2.0);
+  EXPECT_EQ(tolerances.spin_up.attitude, std::nullopt);
+}
+
+TEST(Agreement, WarnsOfTolerancesThatJudgeNothing) {
+  const Trial trial(
+      brick_with("references: [spin_up]\n"
+                 "agreement: {references: {kepler: {velocity: 1 mm/s}}}\n"));
+  EXPECT_TRUE(trial.model);
+  EXPECT_THAT(trial.faults(), ElementsAre(HasSubstr("9:34 SC3504 these tolerances judge nothing: "
+                                                    "`references` does not list `kepler`")));
+}
+
 TEST(References, AreRefusedWhereTheyCannotApply) {
   const Trial kepler(brick_with("references: [kepler]\n"));
   EXPECT_THAT(kepler.faults(),

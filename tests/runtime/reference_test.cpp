@@ -84,6 +84,23 @@ TEST(KeplerOrbit, KeepsEnergyAndAngularMomentumAtEveryTime) {
   }
 }
 
+TEST(KeplerOrbit, KeepsItsDigitsUpToTheParabola) {
+  // Barker's equation of the parabola through the same periapsis. The ellipse is 1e-12 away from
+  // it, which at these times moves it by less than a hundred times as much.
+  const Real periapsis = 7.0e6L;
+  const Real speed = std::sqrt(Real{kMu} * (2.0L - 1.0e-12L) / periapsis);
+  const KeplerOrbit orbit({7.0e6, 0.0, 0.0}, {0.0, static_cast<double>(speed), 0.0}, kMu);
+  for (const double time : {-3000.0, -1.0, 0.0, 1.0, 100.0, 3000.0, 20000.0}) {
+    // tan(nu/2) + tan^3(nu/2)/3 = W, by Cardano.
+    const Real W = std::sqrt(Real{kMu} / (2.0L * periapsis * periapsis * periapsis)) * time;
+    const Real root = std::cbrt(1.5L * W + std::sqrt(2.25L * W * W + 1.0L));
+    const Real tangent = root - 1.0L / root;
+    const Vector3d r(static_cast<double>(periapsis * (1.0L - tangent * tangent)),
+                     static_cast<double>(2.0L * periapsis * tangent), 0.0);
+    EXPECT_LT((orbit.at(time).r - r).norm(), 1.0e-10 * r.norm()) << time;
+  }
+}
+
 Model orbit_model() {
   Model model = toy_model();
   model.gravity = {kMu, GravityLaw::kSystemCom, GravityLaw::kBodyCom};
@@ -234,6 +251,40 @@ TEST(SpinUp, TurnsByTheQuadraticLawAboutAnyPrincipalAxisFromAnyAttitude) {
   const auto found = deviations(ReferenceKind::kSpinUp, model, propagate(engine, model).samples);
   EXPECT_LT(found[0].max, 1.0e-10);
   EXPECT_LT(found[1].max, 1.0e-15);
+}
+
+TEST(SpinUp, KeepsItsAngleAfterMillionsOfTurns) {
+  Model model = toy_model();  // a ball: any axis is a principal one
+  model.assembly.links[0].elements[0].I_PntE_L = 300.0 * Matrix3d::Identity();
+  model.initial.omega_BN_B = {3.1, -0.7, 1.9};
+  std::vector<Observation> samples(2);
+  for (Observation& sample : samples) sample.omega_BN_B = model.initial.omega_BN_B;
+  samples[0].q_BN = Quaterniond::Identity();
+  samples[1].time = 1.0e7;
+  const Eigen::Matrix<Real, 3, 1> omega = model.initial.omega_BN_B.cast<Real>();
+  const Real angle = std::remainder(omega.norm() * 1.0e7L, 2.0L * std::numbers::pi_v<Real>);
+  const Vector3d axis = model.initial.omega_BN_B.normalized();
+  samples[1].q_BN = Quaterniond(Eigen::AngleAxisd(static_cast<double>(angle), axis));
+  // 4e7 rad in extended precision are good to 4e-12 rad; in doubles they would be to 7e-9 rad.
+  EXPECT_LT(deviations(ReferenceKind::kSpinUp, model, samples)[0].max, 1.0e-9);
+}
+
+TEST(Tolerances, AreThoseOfTheReferenceInTheUnitOfTheMetric) {
+  Model model = spin_up_model();
+  model.agreement.references.spin_up.attitude = std::numbers::pi / 180.0;
+  model.agreement.references.torque_free.rate = 1.0;
+  const std::vector<Observation> samples(1);
+  const auto found = deviations(ReferenceKind::kSpinUp, model, samples);
+  EXPECT_NEAR(found[0].tolerance.value(), 1.0, 1.0e-15);  // [deg]
+  EXPECT_EQ(found[1].tolerance, std::nullopt);
+  model.agreement.references.kepler = {1.0, 2.0, {}, {}, {}};
+  model.gravity.mu = kMu;
+  std::vector<Observation> orbit(1);
+  orbit[0].r_CN_N = kR0;
+  orbit[0].v_CN_N = kV0;
+  const auto path = deviations(ReferenceKind::kKepler, model, orbit);
+  EXPECT_EQ(path[0].tolerance, 1.0);
+  EXPECT_EQ(path[1].tolerance, 2.0);
 }
 
 TEST(SpinUp, SeesAnAttitudeErrorOfAFewNanoradians) {

@@ -127,6 +127,18 @@ std::string reason(const Model& model, GravityLaw law = GravityLaw::kNone) {
   return inapplicable(ReferenceKind::kTorqueFree, model, law).value_or("");
 }
 
+TEST(TorqueFree, AppliesAtAnySymmetryAndAtRest) {
+  Model model = toy_model();
+  for (const Vector3d& moments :
+       {Vector3d(3, 3, 3), Vector3d(3, 3, 5), Vector3d(3, 4, 3), Vector3d(3, 4, 5)})
+    for (const Vector3d& omega :
+         {Vector3d(0, 0, 0), Vector3d(0, 0.1, 0), Vector3d(0.1, 0.1, 0.1)}) {
+      model.assembly.links[0].elements[0].I_PntE_L = moments.asDiagonal();
+      model.initial.omega_BN_B = omega;
+      EXPECT_EQ(reason(model), "") << moments.transpose() << " " << omega.transpose();
+    }
+}
+
 TEST(TorqueFree, AppliesToARigidBodyThatNothingTurns) {
   Model model = toy_model();
   EXPECT_EQ(reason(model), "");
