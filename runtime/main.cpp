@@ -111,7 +111,7 @@ int complain_of_failures(const Report& report) {
     // What diverges in a work-precision study is a result, but not its reference or check.
     const bool may_diverge =
         report.study && report.study->is_work_precision && i + 2 < report.study->members;
-    const std::string which = report.study ? fmt::format("member {}: ", i + 1) : "";
+    const std::string which = report.study ? fmt::format("member {}: ", i) : "";
     if (member.refused) complain(fmt::format("{}error: {}", which, member.engines[0].reason));
     if (member.refused) code = std::max<int>(code, kExitFindings);
     if (may_diverge || !member.failed()) continue;

@@ -126,7 +126,7 @@ study: {sweep: [{set: simulation, values: [
 )");
   const ProgramResult result = run({spec, "--no-timing"});
   EXPECT_EQ(result.exit_code, 4) << result.out << result.err;
-  EXPECT_THAT(result.err, HasSubstr("member 2: "));
+  EXPECT_THAT(result.err, HasSubstr("member 1: "));
   const json members = report()["members"];
   ASSERT_EQ(members.size(), 3u);
   EXPECT_EQ(members[1]["engines"]["bsm"]["status"], "failed");
