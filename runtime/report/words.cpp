@@ -92,11 +92,21 @@ std::string vehicle_words(const Model& model) {
   return text;
 }
 
+std::string span_words(double seconds) {
+  constexpr double kDay = 86400.0;           // [s]
+  constexpr double kYear = 31556925.974678;  // [s] the year of UDUNITS, which specs are written in
+  const auto in_unit = [seconds](double unit, std::string_view name) {
+    return fmt::format("{:.4g} {}", seconds / unit, name);
+  };
+  if (seconds >= 2.0 * kYear) return in_unit(kYear, "years");
+  return seconds >= 2.0 * kDay ? in_unit(kDay, "days") : shortest(seconds) + " s";
+}
+
 std::string plan_words(const Model& model) {
   const SimulationPlan& plan = model.simulation;
   const Tableau& tableau = tableau_of(plan.method);
-  std::string text = fmt::format("{} s, {} {} {} s", shortest(plan.duration), tableau.name,
-                                 tableau.adaptive ? "landing every" : "at", shortest(plan.step));
+  std::string text = fmt::format("{}, {} {} {}", span_words(plan.duration), tableau.name,
+                                 tableau.adaptive ? "landing every" : "at", span_words(plan.step));
   text += ", " + gravity_words(model.gravity.bsm);
   if (model.gravity.mujoco != model.gravity.bsm)
     text += fmt::format(" (MuJoCo: {})", gravity_words(model.gravity.mujoco));

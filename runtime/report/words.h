@@ -18,6 +18,9 @@ MetricWords words_of(std::string_view key, const Model& model);
 /// `11 DOF: hub, 3 wheels, 2 panels`
 std::string vehicle_words(const Model& model);
 
+/// `120 s`, `30 days`, `10 years`: how long a run is.
+std::string span_words(double seconds);
+
 /// `120 s, rk4 at 0.02 s, no gravity`
 std::string plan_words(const Model& model);
 

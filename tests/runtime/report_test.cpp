@@ -331,6 +331,13 @@ TEST(Table, SaysWhyNothingWasJudged) {
               HasSubstr("not judged; MuJoCo: a chain too deep\n"));
 }
 
+TEST(Words, TellALongRunInDaysOrYears) {
+  EXPECT_EQ(span_words(0.02), "0.02 s");
+  EXPECT_EQ(span_words(5400.0), "5400 s");
+  EXPECT_EQ(span_words(2592000.0), "30 days");
+  EXPECT_EQ(span_words(315569259.75), "10 years");
+}
+
 TEST(Words, GiveDurationsAUnitThatFits) {
   EXPECT_EQ(duration(6.2e-7), "620 ns");
   EXPECT_EQ(duration(3.6e-3), "3.6 ms");
