@@ -198,6 +198,7 @@ Json trend_json(const Trend& trend, const char* x, const char* y, const char* ex
   if (!trend.others.empty()) json["settings"] = settings_json(trend.others);
   json[x] = trend.x;
   json[y] = trend.y;
+  json["members"] = trend.members;
   json[exponents] = trend.exponents;
   return json;
 }

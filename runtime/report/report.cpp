@@ -52,8 +52,8 @@ std::vector<StudyPoint> study_points(const std::vector<ReportedMember>& members)
   std::vector<StudyPoint> points;
   for (const ReportedMember& member : members) {
     const Model& model = member.bundle.model;
-    points.push_back(
-        {&member.settings, model.simulation.step, model.degrees_of_freedom(), &member.result});
+    points.push_back({&member.settings, model.simulation.step, model.degrees_of_freedom(),
+                      &member.result, points.size()});
   }
   return points;
 }

@@ -70,6 +70,7 @@ void add_trend(const Group& group, Trend trend, const Number& x, const Number& y
     if (!at || !value) continue;
     trend.x.push_back(*at);
     trend.y.push_back(*value);
+    trend.members.push_back(point.member);
   }
   bool any = false;
   for (std::size_t i = 1; i < trend.x.size(); ++i) {

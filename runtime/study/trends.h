@@ -17,6 +17,7 @@ struct StudyPoint {
   double step = 0.0;                               // [s]
   int degrees_of_freedom = 0;
   const Member* result = nullptr;
+  std::size_t member = 0;  // its number in the study
 };
 
 /// One quantity along one path of a sweep, with everything else equal.
@@ -27,7 +28,8 @@ struct Trend {
   std::string engine;           // `bsm`; empty: both
   std::string metric;           // `attitude_deg`
   std::vector<double> x, y;
-  std::vector<double> exponents;  // one less; NaN where a logarithm does not exist
+  std::vector<std::size_t> members;  // of which each x and y is
+  std::vector<double> exponents;     // one less; NaN where a logarithm does not exist
 };
 
 /// Errors against references, or the difference of the engines where there is none, over the step

@@ -74,6 +74,7 @@ TEST(Trends, FindTheOrderOfAMethodInTheDifferenceOfTheEngines) {
   ASSERT_THAT(trends, SizeIs(1));
   EXPECT_THAT(trends[0].exponents,
               ElementsAre(testing::DoubleNear(4, 1e-12), testing::DoubleNear(4, 1e-12)));
+  EXPECT_THAT(trends[0].members, ElementsAre(0U, 1U, 2U));
   EXPECT_THAT(slopes_of(plan, study_points(members)), IsEmpty());
 }
 
@@ -102,6 +103,7 @@ TEST(Trends, SeparateTheOtherPathsOfAGrid) {
   EXPECT_THAT(trends[0].exponents, ElementsAre(testing::DoubleNear(1, 1e-12)));
   EXPECT_THAT(trends[1].exponents, ElementsAre(testing::DoubleNear(2, 1e-12)));
   EXPECT_EQ(trends[1].others[0].text, "inertial");
+  EXPECT_THAT(trends[1].members, ElementsAre(2U, 3U));
 }
 
 TEST(Trends, LeaveOutWhatHasNoLogarithm) {
