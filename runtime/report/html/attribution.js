@@ -14,7 +14,7 @@ function removalTable(causes, explanation, unit) {
     [textCell("removed one after another"), textCell("maximum", "number"),
       { text: "maximum ● and rounding ┃, by decades" }],
     steps.map(({ label, metric }) => ({
-      label, cells: [numberCell(metric.max, unit), { node: ruler(metric, rulers, "rounding"), kind: "ruler" }] })));
+      label, cells: [numberCell(metric.max, unit), { node: ruler(metric, rulers, true, "rounding"), kind: "ruler" }] })));
 }
 
 /** @param {number | null} part */

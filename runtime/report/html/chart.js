@@ -3,7 +3,8 @@
 // Both engines lie on one another almost always. So MuJoCo is drawn as a wide pale band and BSM as
 // a thin line inside it: where the line leaves the band, they part.
 
-/** @typedef {{name: string, engine: string, colour: number, values: Float64Array,
+/** `colour` is a place in a palette, -1 that of a difference.
+ *  @typedef {{name: string, engine: string, colour: number, values: Float64Array,
  *             times: Float64Array}} Curve */
 
 class SharedTime {
@@ -14,7 +15,9 @@ class SharedTime {
 
   /** @param {[number, number] | null} window */
   show(window) {
-    if (this.busy) return;
+    // A chart says its window whenever it has drawn: what is shown already costs the others nothing.
+    if (this.busy || (window === null ? this.window === null
+      : this.window !== null && window[0] === this.window[0] && window[1] === this.window[1])) return;
     this.busy = true;
     this.window = window;
     for (const chart of this.charts) chart.showWindow(window);
@@ -91,10 +94,12 @@ class TimeChart {
     this.curves.forEach((curve, i) => {
       const band = curve.engine === "mujoco" && this.curves.some((c) => c.engine === "bsm");
       const shade = seriesColour(curve.colour);
-      series[names[i]] = { strokeWidth: band ? 6 : 1.4, color: band ? withAlpha(shade, 0.32) : shade, highlightCircleSize: band ? 0 : 3 };
+      series[names[i]] = { strokeWidth: band ? 6 : 1.4, color: band ? withAlpha(shade, 0.32) : shade,
+        strokePattern: isDashed(curve.colour) && !band ? [7, 3] : null, highlightCircleSize: band ? 0 : 3 };
     });
     return {
       labels: ["t", ...names], legend: "never", series, logscale: logarithmic,
+      pixelRatio: paper.ready ? paperScale : null,
       valueRange: logarithmic ? this.logRange() : nothing ? [0, 1] : undefined,
       dateWindow: sharedTime.window, xRangePad: 0, yRangePad: logarithmic ? 0 : 8,
       connectSeparatedPoints: !logarithmic, labelsUTC: true,
@@ -179,9 +184,12 @@ class TimeChart {
     this.graph.setVisibility(curve, visible);
   }
 
+  /** In the theme and at the size that it has now, drawn once. */
   redraw() {
-    this.graph.updateOptions(this.look());
-    this.graph.resize();
+    const { width, height } = this.graph.size();
+    const resized = width !== this.inner.clientWidth || height !== this.inner.clientHeight;
+    this.graph.updateOptions(this.look(), resized);
+    if (resized) this.graph.resize();
   }
 
   /** Arrows move the cursor, + and - zoom about it, 0 shows everything. */

@@ -85,11 +85,40 @@ function whenNear(node, act) {
   const once = () => { if (!done) { done = true; watcher.disconnect(); act(); } };
   const watcher = new IntersectionObserver((entries) => { if (entries.some((e) => e.isIntersecting)) once(); }, { rootMargin: "300px" });
   watcher.observe(node);
-  window.addEventListener("beforeprint", once);
+  document.addEventListener("paper", once);
 }
 
 /** @param {string} name of a custom property @returns {string} its value in the theme that is on */
 const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
-/** The colour of the i-th series. @param {number} i */
-const seriesColour = (i) => colour("--s" + (i % 6));
+/** Colours of what is neither an engine nor a verdict; the second time around they are dashed. */
+const paletteSize = 8;
+
+/** What has a name (a coordinate, an axis, an integrator) keeps its colour on the whole page. */
+class Palette {
+  /** @type {Map<string, number>} */ places = new Map();
+
+  /** @param {string[]} names whose colours come first */
+  constructor(names) {
+    names.forEach((name) => this.placeOf(name));
+  }
+
+  /** @param {string} name */
+  placeOf(name) {
+    const place = this.places.get(name) ?? this.places.size;
+    this.places.set(name, place);
+    return place;
+  }
+}
+
+const components = new Palette(["x", "y", "z", "w"]);
+const variants = new Palette([]);
+
+/** The custom property of a place in a palette. @param {number} place */
+const paletteProperty = (place) => (place < 0 ? "--gap" : "--s" + (place % paletteSize));
+
+/** The colour of a place in a palette. @param {number} place */
+const seriesColour = (place) => colour(paletteProperty(place));
+
+/** @param {number} place */
+const isDashed = (place) => place >= 0 && Math.floor(place / paletteSize) % 2 === 1;

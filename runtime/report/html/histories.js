@@ -1,7 +1,7 @@
 // Time histories: a row per quantity, what it does on the left, where the engines part on the right.
 
 /** Curves that are shown to begin with; more are a tick away. */
-const firstCurves = 6;
+const firstCurves = paletteSize;
 
 /** @type {Record<string, Float64Array>} */
 const timeColumns = {};
@@ -13,22 +13,28 @@ function valueCurves(series) {
   /** @type {Curve[]} */
   const curves = [];
   for (const engine of /** @type {const} */ (["mujoco", "bsm"]))
-    series.forEach((one, i) => {
+    series.forEach((one) => {
       if (one[engine])
-        curves.push({ name: one.name, engine, colour: i, values: doubles(one[engine]), times: timesOf(engine) });
+        curves.push({ name: one.name, engine, colour: components.placeOf(one.name), values: doubles(one[engine]), times: timesOf(engine) });
     });
   return curves;
 }
 
 /** @param {Series[]} series @returns {Curve[]} */
 function differenceCurves(series) {
-  return series.map((one, i) => ({
-    name: one.name, engine: "", colour: series.length === 1 ? 5 : i, values: doubles(one.values), times: timesOf("difference"),
+  return series.map((one) => ({
+    name: one.name, engine: "", colour: series.length === 1 ? -1 : components.placeOf(one.name), values: doubles(one.values), times: timesOf("difference"),
   }));
 }
 
 /** `rad/s`; of pure numbers nothing. @param {string} unit */
 const unitLabel = (unit) => (unit === "1" ? "pure number" : unit);
+
+/** `t = 120 s`, and in words where that is long. @param {number} t [s] */
+function cursorWords(t) {
+  const seconds = `t = ${Number(t.toPrecision(8))} s`;
+  return t >= 2 * day ? `${seconds} (${instant(t)})` : seconds;
+}
 
 /** A chart with its axes named and the values under the cursor. */
 class ChartPanel {
@@ -70,12 +76,16 @@ class ChartPanel {
       const box = html("input", { type: "checkbox" });
       const shown = i < firstCurves;
       box.checked = shown;
-      const show = () => own.forEach(({ k }) => this.chart?.setVisible(k, box.checked));
+      const entry = html("tr");
+      const show = () => {
+        own.forEach(({ k }) => this.chart?.setVisible(k, box.checked));
+        entry.classList.toggle("hidden-curve", !box.checked);
+      };
       box.addEventListener("change", show);
       if (!shown) show();
-      const swatch = html("span", { class: "swatch" });
-      swatch.style.setProperty("--swatch", `var(--s${(own[0]?.c.colour ?? i) % 6})`);
-      box.style.setProperty("--swatch", `var(--s${(own[0]?.c.colour ?? i) % 6})`);
+      const place = own[0]?.c.colour ?? components.placeOf(one.name);
+      const swatch = html("span", { class: isDashed(place) ? "swatch dashed" : "swatch" });
+      for (const node of [swatch, box]) node.style.setProperty("--swatch", `var(${paletteProperty(place)})`);
       const cells = present.map((engine) => {
         const td = html("td");
         const mine = own.find(({ c }) => c.engine === engine);
@@ -83,10 +93,11 @@ class ChartPanel {
         return td;
       });
       const name = this.series.length > 1 ? html("label", {}, box, swatch, one.name) : html("label", {}, swatch, one.name);
-      return html("tr", {}, html("th", { scope: "row" }, name), ...cells);
+      return furnish(entry, {}, [html("th", { scope: "row" }, name), ...cells]);
     });
     const labels = { bsm: "BSM", mujoco: "MuJoCo", "": "" };
-    this.readout.replaceChildren(html("table", {},
+    const hidden = this.series.length - firstCurves;
+    this.readout.replaceChildren(hidden > 0 ? html("p", { class: "more" }, `${this.series.length} curves; the last ${hidden} appear when ticked.`) : "", html("table", {},
       html("thead", {}, html("tr", {}, this.when,
         ...present.map((engine) => html("th", { scope: "col" }, labels[/** @type {"bsm"} */ (engine)])))),
       html("tbody", {}, ...rows)));
@@ -95,7 +106,7 @@ class ChartPanel {
 
   /** @param {(number | null)[] | null} row */
   tell(row) {
-    if (this.when) this.when.textContent = row ? `t = ${Number(row[0]).toPrecision(8).replace(/\.?0+$/, "")} s` : "value at the cursor";
+    if (this.when) this.when.textContent = row ? cursorWords(Number(row[0])) : "value at the cursor";
     for (const [cell, k] of this.cells || []) {
       const value = row ? row[k + 1] : null;
       cell.textContent = value === null || value === undefined ? "" : (this.options.logarithmic ? value.toExponential(3) : value.toPrecision(9)).replace("-", "−").replace("e-", "e−");
@@ -155,7 +166,8 @@ function zoomTools() {
   reset.addEventListener("click", () => sharedTime.show(null));
   sharedTime.listeners.push((window) => {
     reset.disabled = window === null;
-    said.textContent = window ? `${window[0].toPrecision(6)} s to ${window[1].toPrecision(6)} s` : "all of the run";
+    const end = (/** @type {number} */ t) => (Math.abs(t) >= 2 * day ? instant(t) : `${t.toPrecision(6)} s`);
+    said.textContent = window ? `${end(window[0])} to ${end(window[1])}` : "all of the run";
   });
   return html("div", { class: "tools" }, reset, said,
     html("span", { class: "note" }, "Drag across a chart to zoom in, shift-drag to move; all charts follow."));

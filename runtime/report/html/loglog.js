@@ -1,12 +1,13 @@
 // A figure with two logarithmic axes, as SVG: crisp in print, and every point can be asked.
 
-/** @typedef {{x: number, y: number, said: string, hollow?: boolean}} Dot */
+/** `out`: no result that counts, so it is crossed out and in no fit.
+ *  @typedef {{x: number, y: number, said: string, hollow?: boolean, out?: boolean}} Dot */
 /** @typedef {{name: string, mark: "circle" | "square" | "diamond", colour: string, dots: Dot[],
- *             line?: boolean, order?: number | null}} Cloud */
+ *             line?: boolean, dashed?: boolean, order?: number | null}} Cloud */
 /** @typedef {{title: string, x: string, y: string, clouds: Cloud[], orderWord?: string,
  *             floors?: {y: number, name: string, colour: string}[]}} LogFigure */
 
-const plot = { width: 560, height: 350, left: 62, right: 18, top: 14, bottom: 46 };
+const plot = { width: 560, height: 350, left: 66, right: 34, top: 16, bottom: 46 };
 
 /** Whole decades around the values, or 1-2-5 steps where they span less than one and a half.
  *  @param {number[]} values */
@@ -59,9 +60,15 @@ function axes(xs, ys, X, Y, figure) {
   ];
 }
 
-/** A line of the order through the middle of the dots. @param {Cloud} cloud @param {Dot[]} dots
- *  @param {(v: number) => number} X @param {(v: number) => number} Y */
-function guide(cloud, dots, X, Y) {
+/** Over a dot that does not count. @param {number} x @param {number} y */
+function cross(x, y) {
+  return svg("path", { class: "out", d: `M${x - 6},${y - 6}L${x + 6},${y + 6}M${x - 6},${y + 6}L${x + 6},${y - 6}` });
+}
+
+/** A line of the order through the middle of the dots that count. @param {Cloud} cloud
+ *  @param {Dot[]} all @param {(v: number) => number} X @param {(v: number) => number} Y */
+function guide(cloud, all, X, Y) {
+  const dots = all.filter((d) => !d.out);
   if (cloud.order === null || cloud.order === undefined || dots.length < 2) return [];
   const mean = (/** @type {number[]} */ list) => list.reduce((a, b) => a + b, 0) / list.length;
   const x0 = mean(dots.map((d) => Math.log10(d.x))), y0 = mean(dots.map((d) => Math.log10(d.y)));
@@ -73,35 +80,43 @@ function guide(cloud, dots, X, Y) {
 /** @param {Cloud} cloud @param {(v: number) => number} X @param {(v: number) => number} Y */
 function drawnCloud(cloud, X, Y) {
   const dots = cloud.dots.filter((d) => d.x > 0 && d.y > 0 && Number.isFinite(d.x) && Number.isFinite(d.y));
-  const path = svg("polyline", { points: dots.map((d) => `${X(d.x)},${Y(d.y)}`).join(" "), fill: "none" });
+  const path = svg("polyline", { points: dots.filter((d) => !d.out).map((d) => `${X(d.x)},${Y(d.y)}`).join(" "), fill: "none" });
   path.style.stroke = cloud.colour;
   path.style.strokeWidth = "1.4";
+  if (cloud.dashed) path.style.strokeDasharray = "7 3";
   return svg("g", {}, ...guide(cloud, dots, X, Y), cloud.line === false ? null : path,
     ...dots.map((d) => {
       const node = marker(cloud.mark, X(d.x), Y(d.y), cloud.colour, Boolean(d.hollow));
-      node.append(svg("title", {}, d.said));
-      return node;
+      const whole = d.out ? svg("g", {}, node, cross(X(d.x), Y(d.y))) : node;
+      whole.append(svg("title", {}, d.said));
+      return whole;
     }));
 }
 
 /** @param {LogFigure} figure */
 function legend(figure) {
+  const anyOut = figure.clouds.some((cloud) => cloud.dots.some((d) => d.out));
   return html("ul", { class: "legend" }, ...figure.clouds.map((cloud) => html("li", {},
     svg("svg", { viewBox: "0 0 19 13", "aria-hidden": true }, marker(cloud.mark, 9, 6.5, cloud.colour, cloud.dots.every((d) => d.hollow))),
-    cloud.name + (cloud.order === null || cloud.order === undefined ? "" : `, ${figure.orderWord ?? "order"} ${cloud.order.toFixed(2)}`))));
+    cloud.name + (cloud.order === null || cloud.order === undefined ? "" : `, ${figure.orderWord ?? "order"} ${cloud.order.toFixed(2)}`))),
+    anyOut ? html("li", {}, svg("svg", { viewBox: "0 0 19 13", "aria-hidden": true }, cross(9, 6.5)), "unresolved or failed, in no fit") : null);
 }
 
 /** @param {LogFigure} figure @param {Node | null} data the numbers behind it */
 function logFigure(figure, data) {
   const good = (/** @type {number} */ v) => v > 0 && Number.isFinite(v);
-  const dots = figure.clouds.flatMap((c) => c.dots).filter((d) => good(d.x) && good(d.y));
+  const all = figure.clouds.flatMap((c) => c.dots).filter((d) => good(d.x) && good(d.y));
+  const counted = all.filter((d) => !d.out);
+  const dots = counted.length > 0 ? counted : all;
   const caption = html("figcaption", {}, html("h3", {}, figure.title));
   if (dots.length === 0) return html("figure", {}, caption, note("No two numbers here have a logarithm."), data);
   const floors = (figure.floors || []).filter((f) => good(f.y));
-  const xs = logTicks(dots.map((d) => d.x));
+  const xs = logTicks(all.map((d) => d.x));
   const ys = logTicks([...dots.map((d) => d.y), ...floors.map((f) => f.y)]);
   const X = logScale(plot.left, plot.width - plot.right, xs);
-  const Y = logScale(plot.height - plot.bottom, plot.top, ys);
+  const scale = logScale(plot.height - plot.bottom, plot.top, ys);
+  // What does not count sets no axis: far away it lies on the edge.
+  const Y = (/** @type {number} */ y) => scale(Math.min(Math.max(y, ys[0]), ys[ys.length - 1]));
   const picture = svg("svg", { viewBox: `0 0 ${plot.width} ${plot.height}`, role: "img",
     "aria-label": `${figure.title}: ${figure.y} over ${figure.x}; the numbers are in the table below` },
   ...axes(xs, ys, X, Y, figure),

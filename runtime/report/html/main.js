@@ -10,17 +10,22 @@ function part(name, make) {
   }
 }
 
-/** The metric that uses most of its tolerance, of all members. */
-function closestMetric() {
-  let closest = { part: -1, key: "", member: 0 };
-  page.report.members.forEach((/** @type {any} */ member, /** @type {number} */ i) => {
-    for (const [key, metric] of Object.entries(member.agreement)) {
-      if (!metric.tolerance) continue;
-      const part = metric.max === null ? Infinity : metric.max / metric.tolerance;
-      if (part > closest.part) closest = { part, key, member: i };
-    }
-  });
-  return closest;
+/** The judged figures of a member with their names. @param {any} member
+ *  @returns {{name: string, unit: string, figure: any}[]} */
+function namedFigures(member) {
+  const named = (/** @type {Record<string, any>} */ figures) => Object.entries(figures || {})
+    .map(([key, figure]) => ({ name: balances[/** @type {"energy_relative"} */ (key)] || words(key).label, unit: words(key).unit, figure }));
+  return [...named(member.agreement), ...named(member.conservation),
+    ...referenceFigures(member).map(({ name, label, key, figure }) =>
+      ({ name: `${label} against ${name}, ${words(key).label.replace(/^hub /, "")}`, unit: words(key).unit, figure }))];
+}
+
+/** The figure that uses most of its tolerance, of all members whose judgement stands. */
+function closestFigure() {
+  const judged = page.report.members.flatMap((/** @type {any} */ member, /** @type {number} */ i) =>
+    namedFigures(member).filter(({ figure }) => figure.tolerance && stands(figure, memberVerdict(member)))
+      .map((one) => ({ ...one, member: i, part: one.figure.max === null ? Infinity : one.figure.max / one.figure.tolerance })));
+  return judged.reduce((/** @type {any} */ most, /** @type {any} */ one) => (most === null || one.part > most.part ? one : most), null);
 }
 
 /** Why the first engine that has no whole run has none, in words. */
@@ -28,23 +33,49 @@ function engineTrouble() {
   for (const [i, member] of page.report.members.entries())
     for (const { key, label } of engines)
       if (member.engines[key]?.reason)
-        return `${page.is_study ? `Member ${i + 1}, ` : ""}${label}: ${member.engines[key].reason}.`;
+        return `${page.is_study ? `Member ${i}, ` : ""}${label}: ${member.engines[key].reason}.`;
   return "";
+}
+
+/** Why the first unresolved member is that. */
+function unresolvedReason() {
+  const i = page.report.members.findIndex((/** @type {any} */ m) => memberVerdict(m) === "unresolved");
+  const reason = page.report.members[i]?.resolution?.reasons?.[0];
+  return reason ? `${page.is_study ? `Member ${i}: ` : ""}${reason}.` : "";
+}
+
+/** How near the judged figures are to their limits. */
+function closestWords() {
+  const closest = closestFigure();
+  if (closest === null) return "The spec gives no tolerance that could be judged.";
+  const { part, name, unit, figure, member } = closest;
+  if (part === 0) return "No quantity that is judged differs at all.";
+  const where = page.is_study ? `, in member ${member}` : "";
+  const sized = (/** @type {number} */ value) => [written(value), unit].filter(Boolean).join(" ");
+  const reached = `${name}, ${figure.max === null ? "which is not a number" : `at most ${sized(figure.max)}`}`;
+  return `${figure.pass ? "Closest to its limit" : "Furthest beyond its limit"}: ${reached}, with ${sized(figure.tolerance)} allowed${where}.`;
 }
 
 /** Why the verdict is what it is. */
 function verdictDetail() {
   if (page.is_work_precision) return "A work-precision study has no verdict.";
-  const trouble = engineTrouble();
-  if (page.report.verdict === "not_judged" && trouble !== "") return trouble;
-  const { part, key, member } = closestMetric();
-  if (part < 0) return "The spec gives no tolerance that could be judged.";
-  if (part === 0) return "No quantity that is judged differs at all.";
-  const metric = page.report.members[member].agreement[key];
-  const { label, unit } = words(key);
-  const where = page.is_study ? `, in member ${member + 1}` : "";
-  const reached = `${label}, ${metric.max === null ? "which is not a number" : `at most ${written(metric.max)} ${unit}`}`;
-  return `${metric.pass ? "Closest to its limit" : "Furthest beyond its limit"}: ${reached}, with ${written(metric.tolerance)} ${unit} allowed${where}.`;
+  const verdict = runVerdict();
+  if (verdict === "failed") return engineTrouble();
+  if (verdict === "interrupted") return engineTrouble() || "What was computed until then is shown.";
+  if (verdict === "unresolved") return [unresolvedReason(), "Whether the engines agree says nothing."].filter(Boolean).join(" ");
+  if (verdict === "not_judged" && engineTrouble() !== "") return engineTrouble();
+  return [closestWords(), leftOutWords()].filter(Boolean).join(" ");
+}
+
+/** The verdict's look, and its words where the judgement is none. */
+function showVerdict() {
+  const title = verdictTitle();
+  const heading = document.getElementById("verdict");
+  if (!heading) return;
+  heading.parentElement?.setAttribute("data-verdict", runVerdict());
+  if (title === null) return;
+  heading.textContent = title;
+  document.title = `${page.report.spec.name} · ${title}`;
 }
 
 function sourceSection() {
@@ -52,7 +83,7 @@ function sourceSection() {
   const source = (/** @type {string} */ label, /** @type {string} */ file, /** @type {string} */ text) => text === "" ? null
     : html("details", {}, html("summary", {}, label), download(`Download ${file}`, file, () => text), html("pre", { tabindex: 0 }, text));
   return section("Sources",
-    note(page.is_study ? "Of the first member." : "What was run, to read and to take along."),
+    note(page.is_study ? "Of member 0." : "What was run, to read and to take along."),
     source("The spec with every default filled in", `${name}.resolved.yaml`, page.resolved),
     source("The MJCF that MuJoCo loaded", `${name}.xml`, page.mjcf));
 }
@@ -61,7 +92,7 @@ function provenance() {
   const { provenance: p, spec } = page.report;
   const rows = { spec: spec.file, "SHA-256": spec.sha256, program: p.git ? `${p.program}, ${p.git}` : p.program,
     compiler: `${p.compiler}, ${p.flags}`, MuJoCo: p.mujoco, Eigen: p.eigen,
-    machine: [p.cpu, `${p.cores} cores`, p.load_average === null ? "" : `load ${p.load_average.toFixed(2)}`].filter(Boolean).join(", ") };
+    "instruction set": p.instructions, machine: [p.cpu, `${p.cores} cores`, p.load_average === null ? "" : `load ${p.load_average.toFixed(2)}`].filter(Boolean).join(", ") };
   return [html("h2", {}, "Provenance"),
     html("dl", {}, ...Object.entries(rows).flatMap(([key, value]) => [html("dt", {}, key), html("dd", {}, String(value))])),
     page.report.complete ? null : html("p", { class: "problem" }, "The run was not completed; this is what was computed.")];
@@ -90,24 +121,6 @@ function repaint() {
   document.dispatchEvent(new Event("repaint"));
 }
 
-/** In light, at the width of a sheet. */
-function fitPrint() {
-  /** @type {string | undefined} */
-  let before;
-  window.addEventListener("beforeprint", () => {
-    before = document.documentElement.dataset.theme;
-    document.documentElement.dataset.theme = "light";
-    document.documentElement.classList.add("for-print");
-    repaint();
-  });
-  window.addEventListener("afterprint", () => {
-    if (before) document.documentElement.dataset.theme = before;
-    else delete document.documentElement.dataset.theme;
-    document.documentElement.classList.remove("for-print");
-    repaint();
-  });
-}
-
 function contents() {
   const titles = [...document.querySelectorAll("main > section")].map((s) => ({ id: s.id, title: s.querySelector("h2")?.firstChild?.textContent || "" }));
   document.getElementById("contents")?.append(html("ul", {}, ...titles.map(({ id, title }) => html("li", {}, html("a", { href: "#" + id }, title)))));
@@ -117,11 +130,13 @@ function compose() {
   const first = page.report.members[0];
   const main = /** @type {HTMLElement} */ (document.getElementById("main"));
   const put = (/** @type {string} */ id, /** @type {string} */ text) => { /** @type {HTMLElement} */ (document.getElementById(id)).textContent = text; };
+  showVerdict();
   put("verdict-detail", verdictDetail());
   put("setting", [page.vehicle, page.plan].join(" · "));
   main.append(...[
     ...part("The study", () => page.is_study ? studySections() : []),
     ...part("Why they differ", () => [attributionSection()]),
+    ...part("Resolution", () => [resolutionSection(first)]),
     ...part("Agreement", () => [...engineRemarks(first), agreementSection(first)]),
     ...part("References", () => [referenceSection(first)]),
     ...part("Conservation", () => [conservationSection(first)]),
@@ -131,8 +146,8 @@ function compose() {
     ...part("Sources", () => [sourceSection()]),
   ].filter((node) => node !== null));
   if (page.is_study)
-    for (const title of main.querySelectorAll("section#agreement h2, section#conservation h2, section#cost h2, section#references h2, section#replay h2, section#time-histories h2"))
-      title.append(html("span", { class: "of" }, " of the first member"));
+    for (const title of main.querySelectorAll("section#resolution h2, section#agreement h2, section#conservation h2, section#cost h2, section#references h2, section#replay h2, section#time-histories h2"))
+      title.append(html("span", { class: "of" }, " of member 0"));
   document.getElementById("provenance")?.append(.../** @type {Node[]} */ (provenance().filter(Boolean)));
   contents();
   themeButton();

@@ -13,10 +13,11 @@ function rulerScale(metrics) {
   return { low: Math.max(low, -16), high: Math.min(high, 16) };
 }
 
-/** @param {Metric} metric @param {{low: number, high: number}} scale
+/** @param {Metric | undefined} metric @param {{low: number, high: number}} scale
+ *  @param {boolean} stands whether it is judged: otherwise the dot has no colour
  *  @param {string} limit what `tolerance` is */
-function ruler(metric, scale, limit = "the tolerance") {
-  if (!metric.tolerance || metric.max === null) return html("span");
+function ruler(metric, scale, stands = true, limit = "the tolerance") {
+  if (!metric?.tolerance || metric.max === null) return html("span");
   const width = 240;
   /** @param {number} decade */
   const x = (decade) => 6 + (width - 12) * (Math.min(Math.max(decade, scale.low), scale.high) - scale.low) / (scale.high - scale.low);
@@ -27,7 +28,7 @@ function ruler(metric, scale, limit = "the tolerance") {
   for (let d = scale.low; d <= scale.high; d += 1)
     ticks.push(svg("line", { class: "axis", x1: x(d), x2: x(d), y1: 8, y2: 14 }));
   const dot = svg("circle", { cx: x(decade), cy: 11, r: 4.2 });
-  dot.style.setProperty("fill", metric.pass ? "var(--agree)" : "var(--disagree)");
+  dot.style.setProperty("fill", !stands ? "var(--unjudged)" : metric.pass ? "var(--agree)" : "var(--disagree)");
   return svg("svg", { viewBox: `0 0 ${width} 22`, role: "img", "aria-label": said },
     svg("title", {}, said),
     svg("line", { class: "axis", x1: 6, x2: width - 6, y1: 11, y2: 11 }), ...ticks,

@@ -31,8 +31,20 @@ function duration(seconds) {
   return `${Number(seconds.toPrecision(seconds < 999.5 ? 3 : 4))} s`;
 }
 
-/** A time in a run. @param {number} t [s] */
-const instant = (t) => `${t.toFixed(2)} s`;
+const day = 86400;          // [s]
+const year = 31556925.9747; // [s] the tropical year, which is that of the spec's units
+
+/** A time in a run: from two days on in days, from two years on in years. @param {number} t [s] */
+function instant(t) {
+  if (Math.abs(t) >= 2 * year) return `${(t / year).toFixed(3)} years`;
+  return Math.abs(t) >= 2 * day ? `${(t / day).toFixed(3)} days` : `${t.toFixed(2)} s`;
+}
+
+/** How long a span of a run is. @param {number} t [s] */
+function span(t) {
+  if (t >= 2 * year) return `${written(t / year, 3)} years`;
+  return t >= 2 * day ? `${written(t / day, 3)} days` : `${written(t, 2)} s`;
+}
 
 /** For a tick of an axis. @param {number} value */
 function tick(value) {

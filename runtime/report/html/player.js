@@ -32,10 +32,10 @@ class Player {
     this.controls.enableZoom = false; // the wheel scrolls the page; buttons and keys zoom
     this.controls.addEventListener("change", () => this.draw());
     this.build();
+    this.resize();
     this.frame();
     new ResizeObserver(() => this.resize()).observe(this.stage);
     document.addEventListener("repaint", () => { this.build(); this.resize(); });
-    this.resize();
   }
 
   build() {
@@ -52,7 +52,7 @@ class Player {
       this.scene.add(actor.holder);
     }
     this.extent = this.actors[0].vehicle.extent;
-    this.axes = triad(this.extent * 0.9);
+    this.axes = triad(this.extent * 0.5);
     this.scene.add(this.axes);
     this.way = this.buildWay();
     this.scene.add(this.way);
@@ -85,19 +85,40 @@ class Player {
   /** The camera where the whole vehicle is in view. */
   frame() {
     if (!this.camera) return;
-    const distance = this.extent * (this.show === "sides" ? 5.2 : 3.7);
-    this.camera.position.set(0.55, -0.72, 0.42).normalize().multiplyScalar(distance);
+    const aspect = this.stage.clientWidth / this.stage.clientHeight / (this.show === "sides" && this.view !== "path" ? 2 : 1);
+    const { eye, target, distance } = bestView(this.places(), aspect, this.camera.fov * Math.PI / 180);
     this.camera.up.set(0, 0, 1);
+    this.camera.position.copy(eye);
     this.camera.near = distance / 200;
     this.camera.far = distance * 20;
-    this.controls.target.set(0, 0, 0);
+    this.camera.updateProjectionMatrix();
+    this.controls.target.copy(target);
     this.controls.update();
+  }
+
+  /** Where anything is seen during the run, in the axes of the view. */
+  places() {
+    this.way.visible = this.view === "path";
+    // A path may be a point: its dots are not to fill the picture.
+    if (this.view === "path")
+      return [...cornersOf(this.way), ...[-0.3, 0.3].map((x) => new THREE.Vector3(x, x, x).multiplyScalar(this.extent))];
+    const now = this.time;
+    const places = [];
+    for (let i = 0; i <= 24; i += 1) {
+      this.time = this.begin + (this.end - this.begin) * i / 24;
+      for (const actor of this.actors) {
+        this.placeActor(actor);
+        if (actor.holder.visible) places.push(...cornersOf(actor.holder));
+      }
+    }
+    this.time = now;
+    return places;
   }
 
   /** @param {number} factor */
   zoom(factor) {
     if (!this.camera) return;
-    this.camera.position.multiplyScalar(factor);
+    this.camera.position.sub(this.controls.target).multiplyScalar(factor).add(this.controls.target);
     this.controls.update();
     this.draw();
   }
@@ -105,7 +126,7 @@ class Player {
   /** @param {number} angle [rad] */
   turn(angle) {
     if (!this.camera) return;
-    this.camera.position.applyAxisAngle(new THREE.Vector3(0, 0, 1), angle);
+    this.camera.position.sub(this.controls.target).applyAxisAngle(new THREE.Vector3(0, 0, 1), angle).add(this.controls.target);
     this.controls.update();
     this.draw();
   }

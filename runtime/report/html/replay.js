@@ -48,7 +48,7 @@ function lookTools(player) {
   const speed = slider("Speed", { min: -2, max: 2, step: 0.25, value: 0 }, (v) => { player.speed = 10 ** v * Math.max((player.end - player.begin) / 24, 1e-9); player.draw(); });
   const factor = slider("Exaggerate deflections", { min: 0, max: 3, step: 0.25, value: 0, id: "factor" }, (v) => { player.factor = 10 ** v; player.draw(); });
   const said = html("output");
-  player.onChange.push(() => { said.textContent = `${written(player.speed, 2)} s per second`; });
+  player.onChange.push(() => { said.textContent = `${span(player.speed)} per second`; });
   const rebuild = () => { player.build(); player.frame(); player.draw(); };
   const button = (/** @type {string} */ text, /** @type {string} */ label, /** @type {() => void} */ act) => {
     const made = html("button", { type: "button", "aria-label": label }, text);
@@ -57,7 +57,7 @@ function lookTools(player) {
   };
   return html("div", { class: "tools" },
     player.actors.length > 1 ? choice("Show", shows, player.show, (key) => { player.show = key; rebuild(); }) : null,
-    choice("View", gravity ? views : plain, player.view, (key) => { player.view = key; player.draw(); }),
+    choice("View", gravity ? views : plain, player.view, (key) => { player.view = key; player.frame(); player.draw(); }),
     speed.node, said, player.replay.joints.length > 0 ? factor.node : null,
     button("−", "Zoom out", () => player.zoom(1.25)), button("+", "Zoom in", () => player.zoom(0.8)),
     button("↺", "Turn left", () => player.turn(0.2)), button("↻", "Turn right", () => player.turn(-0.2)));

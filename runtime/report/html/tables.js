@@ -33,66 +33,84 @@ function table(name, head, rows) {
 /** @param {string} text @param {string} [kind] @returns {Cell} */
 const textCell = (text, kind) => ({ text, kind });
 
-/** @param {boolean | null} pass @returns {Cell} */
-function passCell(pass) {
-  if (pass === null) return textCell("not judged", "");
-  return pass ? textCell("held", "pass") : textCell("exceeded", "fail");
-}
+/** A limit, or none. @param {any} figure @param {string} unit */
+const limitCell = (figure, unit) => typeof figure?.tolerance === "number" ? numberCell(figure.tolerance, unit) : textCell("–", "number");
+
+const rulerHead = { text: "maximum ● and tolerance ┃, by decades" };
 
 /** @param {any} member */
 function agreementSection(member) {
   const keys = Object.keys(member.agreement);
   if (keys.length === 0) return null;
+  const verdict = memberVerdict(member);
   const rulers = rulerScale(keys.map((key) => member.agreement[key]));
   return section("Agreement",
     note("The largest difference of the two engines over the recorded samples, and when it occurred."),
+    unjudgedNote(member),
     table("Agreement of the engines",
-      [textCell("quantity"), textCell("maximum", "number"), textCell("at", "number"),
-        textCell("tolerance", "number"), textCell("verdict"), { text: "maximum ● and tolerance ┃, by decades" }],
+      [textCell("quantity"), textCell("verdict"), textCell("maximum", "number"), textCell("at", "number"),
+        textCell("tolerance", "number"), rulerHead],
       keys.map((key) => {
         const metric = member.agreement[key];
         const { label, unit } = words(key);
         return {
           label, cells: [
+            passCell(metric, verdict),
             numberCell(metric.max, unit),
             { value: metric.at_s, text: instant(metric.at_s), kind: "number" },
-            metric.tolerance === null ? textCell("–", "number") : numberCell(metric.tolerance, unit),
-            passCell(metric.pass),
-            { node: ruler(metric, rulers), kind: "ruler" },
+            limitCell(metric, unit),
+            { node: ruler(metric, rulers, stands(metric, verdict)), kind: "ruler" },
           ],
         };
       })));
 }
 
-/** @param {any} member */
-function referenceSection(member) {
-  const rows = [];
-  for (const [name, runs] of Object.entries(member.references))
-    for (const { key: engine, label } of engines)
-      for (const [metric, result] of Object.entries(runs[engine] || {})) {
-        const { label: quantity, unit } = words(metric);
-        // A reference speaks of the system's centre of mass where a metric speaks of the hub.
-        rows.push({ label: `${name}, ${quantity.replace(/^hub /, "")}`, cells: [
-          textCell(label, "engine-" + engine), numberCell(result.max, unit),
-          { value: result.at_s, text: instant(result.at_s), kind: "number" }] });
-      }
-  if (rows.length === 0) return null;
-  return section("References",
-    note("Each engine against a solution that neither of them uses."),
-    table("Differences from references", [textCell("reference"), textCell("engine"),
-      textCell("maximum", "number"), textCell("at", "number")], rows));
+/** Every figure of a member's references. @param {any} member */
+function referenceFigures(member) {
+  return Object.entries(member.references || {}).flatMap(([name, runs]) => engines.flatMap(({ key: engine, label }) =>
+    Object.entries(runs[engine] || {}).map(([key, figure]) => ({ name, engine, label, key, figure }))));
 }
 
 /** @param {any} member */
+function referenceSection(member) {
+  const figures = referenceFigures(member);
+  if (figures.length === 0) return null;
+  const verdict = memberVerdict(member);
+  const judged = figures.some(({ figure }) => typeof figure.tolerance === "number");
+  const rulers = rulerScale(figures.map(({ figure }) => figure));
+  return section("References",
+    note("Each engine against a solution that neither of them uses."),
+    judged ? unjudgedNote(member) : null,
+    table("Differences from references", [textCell("reference"), textCell("engine"), ...(judged ? [textCell("verdict")] : []),
+      textCell("maximum", "number"), textCell("at", "number"), ...(judged ? [textCell("tolerance", "number"), rulerHead] : [])],
+    figures.map(({ name, engine, label, key, figure }) => {
+      const { label: quantity, unit } = words(key);
+      // A reference speaks of the system's centre of mass where a metric speaks of the hub.
+      return { label: `${name}, ${quantity.replace(/^hub /, "")}`, cells: [
+        textCell(label, "engine-" + engine), ...(judged ? [passCell(figure, verdict)] : []), numberCell(figure.max, unit),
+        { value: figure.at_s, text: instant(figure.at_s), kind: "number" },
+        ...(judged ? [limitCell(figure, unit), { node: ruler(figure, rulers, stands(figure, verdict)), kind: "ruler" }] : [])] };
+    })));
+}
+
+/** What is balanced, by its key in report.json. */
+const balances = { energy_relative: "energy balance", momentum_relative: "momentum", angular_momentum_relative: "angular momentum" };
+
+/** @param {any} member */
 function conservationSection(member) {
-  /** @type {[string, string][]} */
-  const books = [["energy balance", "energy_relative"], ["momentum", "momentum_relative"],
-    ["angular momentum", "angular_momentum_relative"]];
+  const verdict = memberVerdict(member);
+  const figures = member.conservation || {};
+  const judged = Object.values(figures).some((figure) => typeof figure.tolerance === "number");
+  const rulers = rulerScale(Object.values(figures));
   return section("Conservation",
     note("The largest imbalance of each engine's books, external work and impulses counted, relative to the size of what is balanced."),
-    table("Conservation", [textCell("books"), ...engines.map((e) => textCell(e.label, "number engine-" + e.key))],
-      books.map(([label, key]) => ({
-        label, cells: engines.map((e) => numberCell(member.engines[e.key]?.conservation?.[key])),
+    judged ? unjudgedNote(member) : null,
+    table("Conservation", [textCell("books"), ...(judged ? [textCell("verdict")] : []),
+      ...engines.map((e) => textCell(e.label, "number engine-" + e.key)), ...(judged ? [textCell("tolerance", "number"), rulerHead] : [])],
+      Object.entries(balances).map(([key, label]) => ({
+        label, cells: [...(judged ? [passCell(figures[key], verdict)] : []),
+          ...engines.map((e) => numberCell(member.engines[e.key]?.conservation?.[key])),
+          ...(judged ? [limitCell(figures[key], ""), { node: ruler(figures[key], rulers, stands(figures[key], verdict)), kind: "ruler" }] : [])],
       }))));
 }
 
@@ -123,6 +141,8 @@ function costSection(member) {
 function engineRemarks(member) {
   return engines
     .filter(({ key }) => member.engines[key] && member.engines[key].reason)
-    .map(({ key, label }) => html("p", { class: member.engines[key].status === "failed" ? "problem" : "note" },
-      `${label}: ${member.engines[key].status}, ${member.engines[key].reason}`));
+    .map(({ key, label }) => {
+      const { status, reason } = member.engines[key];
+      return html("p", { class: status === "failed" ? "problem" : "note" }, `${label}: ${status === "ok" ? "" : `${status}, `}${reason}`);
+    });
 }
