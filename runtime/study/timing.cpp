@@ -13,16 +13,22 @@
 namespace twincraft {
 namespace {
 
-void run_trial(const TimedEngine& engine, EngineTiming& timing) {
-  const auto begin = std::chrono::steady_clock::now();
+void run_trial(const TimedEngine& engine, const Stopwatch& stopwatch, EngineTiming& timing) {
+  const double begin = stopwatch();  // [s]
   const std::size_t steps = engine.run();
-  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
+  const double elapsed = stopwatch() - begin;  // [s]
   if (steps == 0) return;
   timing.steps = steps;
-  timing.trials.push_back(elapsed.count());
+  timing.trials.push_back(elapsed);
 }
 
 }  // namespace
+
+double monotonic_seconds() {
+  // Counted from the first call: a difference of small numbers keeps its nanoseconds.
+  static const auto first = std::chrono::steady_clock::now();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - first).count();
+}
 
 double median(std::vector<double> values) {
   std::sort(values.begin(), values.end());
@@ -69,7 +75,8 @@ std::optional<double> Timing::ratio() const {
   return engines[0].median() / engines[1].median();
 }
 
-Timing time_engines(const std::vector<TimedEngine>& engines, int trials, const MayGoOn& may_go_on) {
+Timing time_engines(const std::vector<TimedEngine>& engines, int trials, const MayGoOn& may_go_on,
+                    const Stopwatch& stopwatch) {
   Timing timing{trials, {}};
   const int planned = static_cast<int>(engines.size()) * (1 + trials);
   int done = 0;
@@ -81,7 +88,7 @@ Timing time_engines(const std::vector<TimedEngine>& engines, int trials, const M
   std::iota(order.begin(), order.end(), 0);
   for (int round = 0; round < trials; ++round) {
     for (std::size_t i : order)
-      if (may_go_on(done++, planned)) run_trial(engines[i], timing.engines[i]);
+      if (may_go_on(done++, planned)) run_trial(engines[i], stopwatch, timing.engines[i]);
     std::reverse(order.begin(), order.end());
   }
   return timing;

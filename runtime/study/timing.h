@@ -50,9 +50,17 @@ struct Timing {
 /// included); false ends the timing.
 using MayGoOn = std::function<bool(int done, int planned)>;
 
+/// Seconds since any fixed moment; it never goes back.
+using Stopwatch = std::function<double()>;
+
+/// The machine's monotonic clock.
+double monotonic_seconds();
+
 /// Warm up, then time. Ended early, an engine has fewer trials than planned, or none. What an
 /// engine throws passes through.
-Timing time_engines(const std::vector<TimedEngine>& engines, int trials, const MayGoOn& may_go_on);
+/// @param stopwatch  read before and after each trial and at no other time
+Timing time_engines(const std::vector<TimedEngine>& engines, int trials, const MayGoOn& may_go_on,
+                    const Stopwatch& stopwatch = monotonic_seconds);
 
 /// The contestant that propagates `model` without records or books.
 /// @param stop  ends a run once it is set; what it took then is no trial

@@ -4,9 +4,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <chrono>
-#include <thread>
-
 namespace twincraft {
 namespace {
 
@@ -54,18 +51,30 @@ TEST_F(Protocol, AsksBeforeEveryRunAndStopsWhenTold) {
 }
 
 TEST_F(Protocol, MeasuresTheRunAndNothingElse) {
-  const std::vector<TimedEngine> sleeper{{"bsm", [] {
-                                            std::this_thread::sleep_for(
-                                                std::chrono::milliseconds(20));
-                                            return std::size_t{10};
-                                          }}};
-  const Timing timing = time_engines(sleeper, 1, [](int, int) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  double now = 1.0e3;                             // [s] of a clock that only the test moves
+  std::vector<double> runs{64.0, 2.0, 8.0, 4.0};  // [s] the warm-up and three trials
+  std::size_t done = 0;
+  const std::vector<TimedEngine> engine{{"bsm", [&] {
+                                           now += runs[done++];
+                                           return std::size_t{10};
+                                         }}};
+  const auto slow_to_answer = [&now](int, int) {
+    now += 500.0;
     return true;
-  });
-  EXPECT_GE(timing.engines[0].median(), 0.020);
-  EXPECT_LT(timing.engines[0].median(), 0.300);
-  EXPECT_DOUBLE_EQ(timing.engines[0].per_step(), timing.engines[0].median() / 10.0);
+  };
+  const Timing timing = time_engines(engine, 3, slow_to_answer, [&now] { return now; });
+  EXPECT_THAT(timing.engines[0].trials, ElementsAre(2.0, 8.0, 4.0));
+  EXPECT_EQ(timing.engines[0].median(), 4.0);
+  EXPECT_EQ(timing.engines[0].per_step(), 0.4);
+}
+
+TEST(Clock, NeverGoesBack) {
+  double last = monotonic_seconds();
+  for (int i = 0; i < 1000; ++i) {
+    const double now = monotonic_seconds();
+    ASSERT_GE(now, last);
+    last = now;
+  }
 }
 
 TEST_F(Protocol, CountsNoTrialThatWasStopped) {
