@@ -27,7 +27,11 @@ export function report(name, spec, ...args) {
   return { folder, file: join(folder, "report.html"), json: JSON.parse(readFileSync(join(folder, "report.json"), "utf8")) };
 }
 
+/** What takes longer has hung: no claim is about time [ms]. */
+const HANG = 600_000;
+
 export const launch = () => chromium.launch({
+  timeout: HANG,
   executablePath: process.env.CHROMIUM || "/usr/bin/chromium",
   args: ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
 });
@@ -35,6 +39,7 @@ export const launch = () => chromium.launch({
 /** A page without network that keeps what it complained of and what it asked for. */
 export async function open(browser, file, options = {}) {
   const context = await browser.newContext({ viewport: { width: 1280, height: 860 }, offline: true, reducedMotion: "reduce", ...options });
+  context.setDefaultTimeout(HANG);
   const page = await context.newPage();
   const complaints = [];
   const requests = [];
@@ -47,12 +52,18 @@ export async function open(browser, file, options = {}) {
   return { page, complaints, others: () => requests.filter((r) => r !== url && !r.startsWith("data:") && !r.startsWith("blob:")) };
 }
 
+/** Waits until the page has drawn what is near the window: observers are told all at once, in the
+ *  order they were made, so the one made here is told last. */
+export const seen = (page) => page.evaluate(() => new Promise((told) => {
+  new IntersectionObserver((_, observer) => { observer.disconnect(); told(); }).observe(document.body);
+}));
+
 /** Scrolls through everything, so that what is drawn when it is near is drawn. */
 export async function seeAll(page) {
   const height = await page.evaluate(() => document.body.scrollHeight);
   for (let y = 0; y < height; y += 500) {
     await page.evaluate((to) => window.scrollTo(0, to), y);
-    await page.waitForTimeout(60);
+    await seen(page);
   }
   await page.evaluate(() => window.scrollTo(0, 0));
 }
