@@ -5,10 +5,8 @@
 #include <signal.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "tests/support/run_program.h"
 
@@ -204,12 +202,9 @@ TEST_F(Attribute, HelpSaysHowSharesAreMeasured) {
 
 TEST_F(Attribute, CanBeInterrupted) {
   const std::string spec = folder.write("drifter.yaml", kDrifter);
-  const auto send = [](pid_t child) {
-    std::this_thread::sleep_for(std::chrono::seconds(1));
-    kill(child, SIGINT);
-  };
-  const ProgramResult result =
-      run({spec, "--duration", "1.0e9 s", "--set", "simulation.record=1000 s"}, {"", send});
+  const ProgramResult result = run({spec, "--duration", "1.0e9 s", "--set",  //
+                                    "simulation.record=1000 s", "--progress", "always"},
+                                   test::signalled_after("bsm     [", SIGINT));
   EXPECT_EQ(result.exit_code, 130) << result.err;
   EXPECT_EQ(report()["complete"], false);
 }

@@ -4,9 +4,7 @@
 #include <signal.h>
 
 #include <algorithm>
-#include <chrono>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "tests/support/run_program.h"
 
@@ -112,12 +110,25 @@ TEST_F(Scsim, HoldsEachEngineAgainstTheClosedForm) {
 }
 
 TEST_F(Scsim, TimesByTheProtocol) {
-  ASSERT_EQ(run_spinner({"--trials", "3"}).exit_code, 0);
+  const ProgramResult result = run_spinner({"--trials", "3"});
+  ASSERT_EQ(result.exit_code, 0);
   const json timing = member()["timing"];
   EXPECT_EQ(timing["protocol"], "warmup=1 trials=3 interleaved reversed");
-  EXPECT_EQ(timing["bsm"]["trials_s"].size(), 3u);
-  EXPECT_GT(timing["mujoco"]["median_s"], 0.0);
-  EXPECT_GT(timing["ratio_bsm_over_mujoco"], 0.0);
+  bool scattered = false;
+  for (const char* engine : {"bsm", "mujoco"}) {
+    std::vector<double> trials = timing[engine]["trials_s"];
+    ASSERT_EQ(trials.size(), 3u);
+    std::sort(trials.begin(), trials.end());
+    EXPECT_GT(trials[0], 0.0);
+    EXPECT_EQ(timing[engine]["median_s"], trials[1]);
+    scattered = scattered || timing[engine]["spread_relative"] > 0.5;
+  }
+  // On a busy machine there may be no ratio, and then the report says why.
+  ASSERT_EQ(timing.contains("ratio_bsm_over_mujoco"), !scattered);
+  EXPECT_THAT(result.out, HasSubstr(scattered ? ": no ratio\n" : "x\n"));
+  if (scattered) return;
+  const double median_bsm = timing["bsm"]["median_s"], median_mujoco = timing["mujoco"]["median_s"];
+  EXPECT_EQ(timing["ratio_bsm_over_mujoco"], median_bsm / median_mujoco);
 }
 
 TEST_F(Scsim, ExitsWithOneWhenAToleranceIsExceeded) {
@@ -238,24 +249,20 @@ TEST_F(Scsim, ExitsWithFourAndSaysWhereWhenNumbersBreakDown) {
 
 class Interrupted : public Scsim, public testing::WithParamInterface<std::pair<int, int>> {
  protected:
-  /// A run of some hours, sent `signal` after a second.
-  ProgramResult interrupt(int signal, const std::string& progress = "auto") {
-    const auto send = [signal](pid_t child) {
-      std::this_thread::sleep_for(std::chrono::seconds(1));
-      kill(child, signal);
-    };
+  /// A run of some hours, interrupted as `input` says.
+  ProgramResult interrupt(const test::ProgramInput& input, const std::string& progress) {
     return run_spinner({"--duration", "1.0e9 s", "--set", "simulation.record=1000 s",  //
                         "--progress", progress},
-                       {"", send});
+                       input);
   }
 };
 
 TEST_P(Interrupted, WritesWhatItHasAndSaysItIsIncomplete) {
   const auto [signal, code] = GetParam();
-  const ProgramResult result = interrupt(signal);
+  const ProgramResult result = interrupt(test::signalled_after("bsm     [", signal), "always");
   EXPECT_EQ(result.exit_code, code) << result.err;
   EXPECT_EQ(report()["complete"], false);
-  EXPECT_EQ(report()["verdict"], "not_judged");
+  EXPECT_EQ(report()["verdict"], "interrupted");
   for (const char* name : {"bsm", "mujoco"}) {
     const json engine = member()["engines"][name];
     EXPECT_GT(engine["t_end_s"], 0.0);
@@ -266,9 +273,13 @@ TEST_P(Interrupted, WritesWhatItHasAndSaysItIsIncomplete) {
   EXPECT_GT(member()["agreement"]["attitude_deg"]["at_s"], 0.0) << "both came some common way";
 }
 
-TEST_P(Interrupted, ShowsProgressOnlyOnATerminalOrWhenToldTo) {
-  EXPECT_THAT(interrupt(GetParam().first).err, IsEmpty());
-  EXPECT_THAT(interrupt(GetParam().first, "always").err, HasSubstr("both    ["));
+TEST_P(Interrupted, ShowsNoProgressOffATerminal) {
+  // The bar would come after half a second, and no run works for longer than it lasts.
+  const auto send = [](pid_t program) {
+    test::await_work(program, 1.5);
+    kill(program, GetParam().first);
+  };
+  EXPECT_THAT(interrupt({"", send}, "auto").err, IsEmpty());
 }
 
 INSTANTIATE_TEST_SUITE_P(BySignal, Interrupted,

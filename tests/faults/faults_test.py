@@ -20,19 +20,20 @@ import signal
 import subprocess
 import sys
 import tempfile
-import time
+import threading
 import unittest
 
 SCCOMPILE, SCSIM = (os.path.abspath(program) for program in sys.argv[1:3])
 SANITIZED = sys.argv[3:] == ["sanitized"]
 QUICKSTART = pathlib.Path(__file__).resolve().parents[2] / "models/quickstart.yaml"
 SHORT = ["--no-timing", "--duration", "2 s"]
-FOREVER = ["--no-timing", "--duration", "1000000 s", "--quiet"]
+FOREVER = ["--no-timing", "--duration", "1000000000 s"]
+HANG = 600  # [s] a program that is still there then has hung, however busy the machine is
 
 
 def strace_works():
     try:
-        done = subprocess.run(["strace", "-o", os.devnull, "true"], capture_output=True, timeout=30)
+        done = subprocess.run(["strace", "-o", os.devnull, "true"], capture_output=True, timeout=HANG)
     except (OSError, subprocess.TimeoutExpired):
         return False
     return done.returncode == 0
@@ -59,7 +60,7 @@ class Faults(unittest.TestCase):
         more.setdefault("stdout", subprocess.PIPE)
         more.setdefault("stderr", subprocess.PIPE)
         command = [str(word) for word in command]
-        return subprocess.run(command, text=True, timeout=120, **more)
+        return subprocess.run(command, text=True, timeout=HANG, **more)
 
     def files(self, folder="out"):
         return sorted(entry.name for entry in (self.folder / folder).iterdir())
@@ -145,10 +146,8 @@ class Disk(Faults):
         (self.folder / "out/report.json").mkdir(parents=True)
         for folder, words in (("file", "not a directory"), ("file/below", "not a directory"),
                               ("/proc/none", "no such file"), ("out", "is a directory")):
-            begin = time.monotonic()
             run = self.run_in([SCSIM, QUICKSTART, "-o", folder, *FOREVER])
             self.assert_fails(run, 3, words)
-            self.assertLess(time.monotonic() - begin, 30)
         self.assertEqual(self.files(), ["report.json"])
 
     def test_what_one_may_not_read_or_write_is_noticed(self):
@@ -202,11 +201,22 @@ class Streams(Faults):
 
 class Signals(Faults):
     def interrupted(self, number, times=1):
-        run = subprocess.Popen([SCSIM, QUICKSTART, "-o", "out", *FOREVER], cwd=self.folder)
-        time.sleep(2.0)
-        for _ in range(times):
-            run.send_signal(number)
-        return run.wait(60)
+        """The exit code of a run that is sent a signal once it says that an engine is under way."""
+        command = [SCSIM, QUICKSTART, "-o", "out", "--progress", "always", *FOREVER]
+        with subprocess.Popen(command, cwd=self.folder, stdout=subprocess.DEVNULL,
+                              stderr=subprocess.PIPE) as run:
+            guard = threading.Timer(HANG, run.kill)
+            guard.start()
+            self.addCleanup(guard.cancel)
+            told = b""
+            while b"bsm     [" not in told:
+                more = os.read(run.stderr.fileno(), 4096)
+                self.assertTrue(more, told)
+                told += more
+            for _ in range(times):
+                run.send_signal(number)
+            run.communicate()
+        return run.returncode
 
     def test_what_was_computed_is_written_and_marked(self):
         for number in (signal.SIGINT, signal.SIGTERM):
@@ -293,7 +303,7 @@ class Surroundings(Faults):
     def test_two_runs_into_one_folder(self):
         runs = [subprocess.Popen([SCSIM, QUICKSTART, "-o", "out", "--quiet", *SHORT],
                                  cwd=self.folder) for _ in range(2)]
-        self.assertEqual([run.wait(120) for run in runs], [0, 0])
+        self.assertEqual([run.wait(HANG) for run in runs], [0, 0])
         self.assertEqual(self.files(), ["bsm.csv", "mujoco.csv", "report.html", "report.json"])
         self.assertIs(json.loads((self.folder / "out/report.json").read_text())["complete"], True)
 
@@ -317,13 +327,12 @@ class Surroundings(Faults):
 
 
 class Bombs(Faults):
-    """Refused in a second and 100 MB; the limits here allow for slow machines and sanitizers."""
+    """Refused in a second and 100 MB; the limit on work allows for sanitizers and slow machines."""
 
     def refused(self, text, code, words):
-        begin = time.monotonic()
-        run = self.run_in([SCCOMPILE, "-"], input=text)
-        self.assert_fails(run, code, words)
-        self.assertLess(time.monotonic() - begin, 20)
+        def limit():  # of processor time [s], which waiting for a busy machine does not use up
+            resource.setrlimit(resource.RLIMIT_CPU, (60, 60))
+        self.assert_fails(self.run_in([SCCOMPILE, "-"], input=text, preexec_fn=limit), code, words)
 
     def test_each_is_refused(self):
         alias = "a: &a [x,x,x,x,x,x,x,x,x]\n" + "".join(

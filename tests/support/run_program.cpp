@@ -3,15 +3,19 @@
 #include "tests/support/run_program.h"
 
 #include <fcntl.h>
+#include <signal.h>
 #include <spawn.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
+#include <thread>
 
 namespace twincraft::test {
 namespace {
@@ -40,6 +44,31 @@ pid_t spawn(const std::string& program, const std::vector<std::string>& argument
   return child;
 }
 
+bool has_ended(pid_t child) {
+  siginfo_t info{};  // si_pid stays 0 while it runs
+  return waitid(P_PID, static_cast<id_t>(child), &info, WEXITED | WNOHANG | WNOWAIT) != 0 ||
+         info.si_pid != 0;
+}
+
+/// Returns once the program has written `words` to standard error.
+void await_words(const std::string& words, pid_t child, const TemporaryFolder& streams) {
+  using Clock = std::chrono::steady_clock;
+  constexpr std::chrono::minutes kHangGuard{8};  // nothing awaited takes seconds on an idle machine
+  const Clock::time_point begin = Clock::now();
+  while (true) {
+    const bool ended = has_ended(child);  // before the look: what it wrote last is still seen
+    const std::string told = streams.read("err");
+    if (told.find(words) != std::string::npos) return;
+    if (!ended && Clock::now() - begin < kHangGuard) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+      continue;
+    }
+    kill(child, SIGKILL);
+    waitpid(child, nullptr, 0);
+    throw std::runtime_error("no `" + words + "` on standard error: " + told);
+  }
+}
+
 int wait_for(pid_t child) {
   int status = 0;
   while (waitpid(child, &status, 0) < 0) {
@@ -55,9 +84,24 @@ ProgramResult run_program(const std::string& program, const std::vector<std::str
   const TemporaryFolder streams;
   streams.write("in", input.standard_input);
   const pid_t child = spawn(program, arguments, streams);
+  if (!input.awaited.empty()) await_words(input.awaited, child, streams);
   if (input.while_running) input.while_running(child);
   const int exit_code = wait_for(child);
   return {exit_code, streams.read("out"), streams.read("err")};
+}
+
+void await_work(pid_t program, double seconds) {
+  clockid_t clock{};
+  if (clock_getcpuclockid(program, &clock) != 0) throw std::runtime_error("no such program");
+  timespec worked{};
+  while (!has_ended(program) && clock_gettime(clock, &worked) == 0 &&
+         static_cast<double>(worked.tv_sec) + 1.0e-9 * static_cast<double>(worked.tv_nsec) <
+             seconds)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+}
+
+ProgramInput signalled_after(const std::string& awaited, int signal) {
+  return {"", [signal](pid_t program) { kill(program, signal); }, awaited};
 }
 
 TemporaryFolder::TemporaryFolder() {

@@ -17,12 +17,23 @@ struct ProgramResult {
 
 struct ProgramInput {
   std::string standard_input;
-  /// Called once the program runs, with its process id; for tests that send it a signal.
+  /// Called while the program runs, with its process id; for tests that send it a signal.
   std::function<void(pid_t)> while_running;
+  /// What the program has written to standard error before that; empty: nothing need be.
+  std::string awaited = {};
 };
 
+/// A program that is sent `signal` once it has written `awaited` to standard error. It says that it
+/// has got so far, so the machine may be as slow as it likes.
+ProgramInput signalled_after(const std::string& awaited, int signal);
+
+/// Returns once `program`, which has one thread at work, has had so much processor time [s], or has
+/// ended.
+void await_work(pid_t program, double seconds);
+
 /// @param program    path of the executable
-/// @throws std::runtime_error when it can not be started
+/// @throws std::runtime_error when it can not be started, or ends or hangs without writing what is
+///         awaited
 ProgramResult run_program(const std::string& program, const std::vector<std::string>& arguments,
                           const ProgramInput& input = {});
 
