@@ -65,14 +65,18 @@ double processor_seconds(const rusage& usage) {
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
-/// Fails when loading takes a second of processor time or the process grows by 100 MB.
+// Of processor time [s]. Tenths of one are usual, and a busy machine makes some more of it; what
+// grows with the square of the texts below takes longer than this.
+constexpr double kHang = 10.0;
+
+/// Fails when loading takes as long as what hangs, or the process grows by 100 MB.
 std::unique_ptr<Loaded> load_bounded(std::string text) {
   rusage before{};
   getrusage(RUSAGE_SELF, &before);
   auto loaded = load(std::move(text));
   rusage after{};
   getrusage(RUSAGE_SELF, &after);
-  EXPECT_LT(processor_seconds(after) - processor_seconds(before), 1.0 * kAllowance);
+  EXPECT_LT(processor_seconds(after) - processor_seconds(before), kHang * kAllowance);
   EXPECT_LT(after.ru_maxrss - before.ru_maxrss, 100 * 1024 * kAllowance);  // KiB
   return loaded;
 }
@@ -359,7 +363,7 @@ TEST(Parse, RefusesAliasBombsInBoundedTimeAndMemory) {
   EXPECT_LE(loaded->diagnostics.error_count(), 100u) << "faults are capped";
 }
 
-TEST(Parse, ReadsAHundredThousandKeysInASecond) {
+TEST(Parse, ReadsAHundredThousandKeysInBoundedTimeAndMemory) {
   std::string text;
   for (int i = 0; i < 100'000; ++i) text += fmt::format("key_{}: {}\n", i, i);
   const auto loaded = load_bounded(text);
@@ -367,7 +371,7 @@ TEST(Parse, ReadsAHundredThousandKeysInASecond) {
   EXPECT_EQ(loaded->root->keys.size(), 100'000u);
 }
 
-TEST(Parse, ReadsALongListOnOneLineInASecond) {
+TEST(Parse, ReadsALongListOnOneLineInBoundedTimeAndMemory) {
   const auto loaded = load_bounded("a: [" + repeated("[1, 2],", 50'000) + "]");
   ASSERT_TRUE(loaded->root);
   EXPECT_EQ(loaded->root->find("a")->items.size(), 50'000u);

@@ -3,14 +3,8 @@
 
 #include <fmt/format.h>
 
-#include <atomic>
-#include <chrono>
 #include <cmath>
-#include <condition_variable>
 #include <memory>
-#include <mutex>
-#include <stop_token>
-#include <thread>
 
 #include "compiler/diag/print.h"
 #include "compiler/emit_resolved.h"
@@ -22,6 +16,7 @@
 #include "runtime/study/conservation.h"
 #include "runtime/study/proof.h"
 #include "runtime/study/random_state.h"
+#include "tests/random/limited_engine.h"
 #include "tests/random/parts.h"
 #include "tests/support/run_program.h"
 #include "tests/support/simbody_oracle.h"
@@ -35,24 +30,7 @@ constexpr double kAccelerations =
 constexpr double kRuns = 1.0e-9;   // as kBooks
 constexpr double kBooks = 1.0e-9;  // RKF78 at 1e-13, some hundred steps, stiff chains
 
-/// Says when a run takes too long: an adaptive method goes on for as long as it makes any way.
-class Deadline {
- public:
-  Deadline()
-      : watch_([this](const std::stop_token& enough) {
-          std::unique_lock lock(mutex_);
-          constexpr std::chrono::seconds kPatience{20};
-          passed_ =
-              !changed_.wait_for(lock, enough, kPatience, [&] { return enough.stop_requested(); });
-        }) {}
-  const std::atomic<bool>& passed() const { return passed_; }
-
- private:
-  std::atomic<bool> passed_ = false;
-  std::mutex mutex_;
-  std::condition_variable_any changed_;
-  std::jthread watch_;  // last: it uses the others
-};
+constexpr long kMostDerivatives = 2'000'000;
 
 class Examination {
  public:
@@ -215,8 +193,8 @@ class Examination {
   std::optional<Trajectory> balanced(const std::string& name, const Model& tight) {
     const auto engine =
         name == "bsm" ? make_bsm_engine(tight) : make_mujoco_engine(tight, bundle_->mjcf);
-    const Deadline deadline;
-    Trajectory run = propagate(*engine, tight, {&deadline.passed(), {}});
+    LimitedEngine limited(*engine, kMostDerivatives);
+    Trajectory run = propagate(limited, tight, {&limited.exhausted(), {}});
     if (run.status != Trajectory::Status::kComplete) {
       const bool is_slow = run.status == Trajectory::Status::kInterrupted;
       fail(name + (is_slow ? " is quick enough" : " runs"), run.failure);

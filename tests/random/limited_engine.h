@@ -1,0 +1,43 @@
+// An engine that works so much and no more. An adaptive method goes on for as long as it makes any
+// way; derivatives are counted instead of seconds, so that a busy machine finds nothing else.
+#pragma once
+
+#include <atomic>
+
+#include "runtime/engine.h"
+
+namespace twincraft::random_vehicles {
+
+class LimitedEngine : public Engine {
+ public:
+  LimitedEngine(Engine& engine, long most_derivatives) : engine_(engine), left_(most_derivatives) {}
+
+  /// Set once there have been so many: for PropagateOptions::stop.
+  const std::atomic<bool>& exhausted() const { return exhausted_; }
+
+  std::string_view name() const override { return engine_.name(); }
+  const StateLayout& layout() const override { return engine_.layout(); }
+  Eigen::VectorXd initial_state() const override { return engine_.initial_state(); }
+  void hold_inputs(double time) override { engine_.hold_inputs(time); }
+  void derivative(double time, std::span<const double> state, std::span<double> rate) override {
+    if (--left_ <= 0) exhausted_ = true;
+    engine_.derivative(time, state, rate);
+  }
+  void finish_step(std::span<double> state) override { engine_.finish_step(state); }
+  Observation observe(double time, std::span<const double> state) override {
+    return engine_.observe(time, state);
+  }
+  ExternalRates external_rates(double time, std::span<const double> state) override {
+    return engine_.external_rates(time, state);
+  }
+  Eigen::MatrixXd mass_matrix(std::span<const double> state) override {
+    return engine_.mass_matrix(state);
+  }
+
+ private:
+  Engine& engine_;
+  long left_;
+  std::atomic<bool> exhausted_ = false;
+};
+
+}  // namespace twincraft::random_vehicles
