@@ -65,8 +65,8 @@ double processor_seconds(const rusage& usage) {
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
-// Of processor time [s]. Tenths of one are usual, and a busy machine makes some more of it; what
-// grows with the square of the texts below takes longer than this.
+// Of processor time [s]. Loading takes some tenths of one, or all of one where other programs use
+// the caches; what grows much faster than its text takes longer than this.
 constexpr double kHang = 10.0;
 
 /// Fails when loading takes as long as what hangs, or the process grows by 100 MB.
