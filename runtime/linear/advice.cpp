@@ -38,17 +38,22 @@ std::string loss_words(double share) {
 
 void conclude(std::vector<Finding> findings, std::string_view cure, Resolution& resolution) {
   if (findings.empty()) return;
-  std::ranges::stable_sort(findings, std::greater(), &Finding::severity);
+  // What is as grave to a percent is told of the first instant at which it was found.
+  std::ranges::stable_sort(findings, std::greater(), [](const Finding& finding) {
+    return std::round(100.0 * std::log(finding.severity));
+  });
   const Finding& gravest = findings.front();
   resolution.resolved = false;
   resolution.rule = gravest.rule;
   resolution.worst_coordinate = gravest.coordinate;
   resolution.worst_error = gravest.error;
-  for (const Finding& finding : findings) {
-    const bool is_told = std::ranges::any_of(
-        resolution.reasons, [&](const std::string& reason) { return reason == finding.text; });
+  for (std::size_t i = 0; i < findings.size(); ++i) {
+    const auto before = findings.begin() + static_cast<std::ptrdiff_t>(i);
+    const bool is_told = std::any_of(findings.begin(), before, [&](const Finding& told) {
+      return told.rule == findings[i].rule && told.coordinate == findings[i].coordinate;
+    });
     if (!is_told && resolution.reasons.size() < kMostReasons)
-      resolution.reasons.push_back(finding.text);
+      resolution.reasons.push_back(findings[i].text);
   }
   if (!cure.empty()) resolution.reasons.front() += fmt::format(". {} resolves it", cure);
 }

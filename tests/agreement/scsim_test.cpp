@@ -259,7 +259,7 @@ class Interrupted : public Scsim, public testing::WithParamInterface<std::pair<i
 
 TEST_P(Interrupted, WritesWhatItHasAndSaysItIsIncomplete) {
   const auto [signal, code] = GetParam();
-  const ProgramResult result = interrupt(test::signalled_after("bsm     [", signal), "always");
+  const ProgramResult result = interrupt(test::signalled_after("both    [", signal), "always");
   EXPECT_EQ(result.exit_code, code) << result.err;
   EXPECT_EQ(report()["complete"], false);
   EXPECT_EQ(report()["verdict"], "interrupted");

@@ -63,6 +63,12 @@ std::string verdict_words(const Report& report) {
       return capitalised(held_words(report)) + (report.study ? " in every member" : "");
     case Verdict::kDisagree:
       return capitalised(exceeded_words(report));
+    case Verdict::kUnresolved:
+      return "Unresolved";
+    case Verdict::kFailed:
+      return "Failed";
+    case Verdict::kInterrupted:
+      return "Interrupted";
     case Verdict::kNotJudged:
       break;
   }
