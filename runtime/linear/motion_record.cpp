@@ -50,7 +50,6 @@ void OwnEnergy::see(const Observation& sample, const Books& books) {
     work_ = books.own_work;
     started_ = true;
   }
-  kinetic_span_.see(sample.own_kinetic);
   springs_span_.see(sample.springs);
   work_span_.see(books.own_work);
   largest_ = std::max(largest_, sample.own_kinetic + sample.springs);
@@ -63,8 +62,10 @@ double OwnEnergy::drift_of(const Observation& sample, const Books& books) const 
 }
 
 double OwnEnergy::exchanged() const {
-  return 2.0 * std::max({kinetic_span_.half(), springs_span_.half(), work_span_.half()});
+  return 2.0 * std::max(springs_span_.half(), work_span_.half());
 }
+
+bool OwnEnergy::is_exchanging() const { return exchanged() > kExchanged * largest_; }
 
 double OwnEnergy::relative() const {
   const double scale = std::max(exchanged(), kExchanged * largest_);

@@ -27,15 +27,18 @@ class OwnEnergy {
   void see(const Observation& sample, const Books& books);
 
   double drift() const { return drift_; }  // [J] largest |change - work|
-  double exchanged() const;                // [J] the most that changed hands
-  double relative() const;                 // drift over what is exchanged
+  /// [J] The most that changed hands between motion and springs, or with what works on them.
+  double exchanged() const;
+  /// Enough of it to measure a drift by: a rigid body in deep space exchanges nothing.
+  bool is_exchanging() const;
+  double relative() const;  // drift over what is exchanged, or over 1e-6 of all if that is more
   double drift_of(const Observation& sample, const Books& books) const;  // [J] signed, now
 
  private:
   bool started_ = false;
   double kinetic_ = 0.0, springs_ = 0.0, work_ = 0.0;  // [J] at the first sample
   double drift_ = 0.0, largest_ = 0.0;
-  Extent kinetic_span_, springs_span_, work_span_;
+  Extent springs_span_, work_span_;
 };
 
 class MotionRecord {

@@ -172,7 +172,9 @@ void Judge::look_at_modes() {
   };
   for (const double time : inspection_.before) look(time, true);
   for (const double time : inspection_.along) look(time, false);
-  if (run_.motion != nullptr && run_.motion->last() && run_.motion->last()->time > 0.0) {
+  const bool came_far = run_.motion != nullptr && run_.motion->last() &&
+                        run_.motion->last()->time <= run_.reached && run_.reached > 0.0;
+  if (came_far) {
     const Observation& last = *run_.motion->last();
     const bool is_draining = drains(model_);
     const bool has_all_mass = std::ranges::all_of(
@@ -306,7 +308,7 @@ void Judge::judge_energy(std::span<const OwnEnergy* const> energies) {
   if (drains(model_)) return;  // what leaves takes energy along that no exchange measures
   for (const OwnEnergy* energy : energies) {
     const double lost = energy->relative();
-    if (lost <= kEnergyLimit) continue;
+    if (lost <= kEnergyLimit || !energy->is_exchanging()) continue;
     advised_ = std::min(advised_, 0.5 * step_);
     findings_.push_back({ResolutionRule::kEnergy, lost / kEnergyLimit, "", lost,
                          fmt::format("the energy of the vehicle's own motion is off by {:.2g} J, "
@@ -458,9 +460,16 @@ Resolution foresee_resolution(const Model& model) {
 }
 
 Resolution explain_failure(const Model& model, const Inspection& inspection, const RunShown& run) {
-  Judge judge(model, inspection, run);
+  // What is seen late in such a run is what is left of the vehicle: the start tells, if it can.
+  RunShown start = run;
+  start.reached = 0.0;
+  Judge judge(model, inspection, start);
   judge.look_at_modes();
-  return judge.conclude_failure();
+  const Resolution from_start = judge.conclude_failure();
+  if (!from_start.reasons.empty()) return from_start;
+  Judge later(model, inspection, run);
+  later.look_at_modes();
+  return later.conclude_failure();
 }
 
 }  // namespace twincraft

@@ -123,7 +123,8 @@ class Resolution : public testing::TestWithParam<Case> {
     const Vehicle& subject = vehicle(one.vehicle);
     return fmt::format(
         "format: spacecraft/1\nname: {}\n{}simulation: {{integrator: {}, step: {} s, "
-        "duration: {} s{}}}\nagreement: {{attitude: 1.0e-4 deg, joint: 1.0e-4 deg}}\n",
+        "duration: {} s{}}}\nengines: {{bsm: {{attitude: quaternion}}}}\n"
+        "agreement: {{attitude: 1.0e-4 deg, joint: 1.0e-4 deg}}\n",
         subject.name, subject.text, one.method, one.step, subject.duration,
         subject.name == "LongOrbit" ? ", mode: translation" : "");
   }
