@@ -27,7 +27,7 @@ SCCOMPILE, SCSIM = (os.path.abspath(program) for program in sys.argv[1:3])
 SANITIZED = sys.argv[3:] == ["sanitized"]
 QUICKSTART = pathlib.Path(__file__).resolve().parents[2] / "models/quickstart.yaml"
 SHORT = ["--no-timing", "--duration", "2 s"]
-FOREVER = ["--no-timing", "--duration", "1000000000 s"]
+FOREVER = ["--no-timing", "--duration", "1000000000 s", "--set", "simulation.record=1000 s"]
 HANG = 600  # [s] a program that is still there then has hung, however busy the machine is
 
 
@@ -209,7 +209,7 @@ class Signals(Faults):
             guard.start()
             self.addCleanup(guard.cancel)
             told = b""
-            while b"bsm     [" not in told:
+            while b"both    [" not in told:
                 more = os.read(run.stderr.fileno(), 4096)
                 self.assertTrue(more, told)
                 told += more
