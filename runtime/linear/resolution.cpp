@@ -23,18 +23,19 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kDegrees = 180.0 / std::numbers::pi;  // [deg/rad]
 
-constexpr double kErrorLimit = 0.05;     // of a coordinate's motion
-constexpr double kAttitudeLimit = 1.0;   // [deg]
-constexpr double kLeastAttitude = 0.1;   // [deg] of a hub that hardly turns
-constexpr double kTurnedShare = 0.03;    // of the angle turned
-constexpr double kOrbitLimit = 1.0e-3;   // of the largest distance; along an orbit [rad]
-constexpr double kLeastTravel = 1.0;     // [m]
-constexpr double kEnergyLimit = 0.1;     // of what is exchanged
-constexpr double kLeastMotion = 1.0e-6;  // [rad] or [m]: less is no motion
-constexpr double kAdvisedShare = 0.2;    // of a limit: what an advised step aims at
-constexpr double kSlowest = 1.0e-3;      // a mode slower than this over the run is no mode
-constexpr double kStabilitySets = 0.8;   // of the stability limit: an adaptive method's end
-constexpr int kMostStates = 600;         // the eigenvalues of more take seconds an instant
+constexpr double kErrorLimit = 0.05;       // of a coordinate's motion
+constexpr double kAttitudeLimit = 0.8;     // [deg]
+constexpr double kAcceptedAttitude = 1.0;  // [deg] of an adaptive method's own estimates
+constexpr double kLeastAttitude = 0.1;     // [deg] of a hub that hardly turns
+constexpr double kTurnedShare = 0.03;      // of the angle turned
+constexpr double kOrbitLimit = 1.0e-3;     // of the largest distance; along an orbit [rad]
+constexpr double kLeastTravel = 1.0;       // [m]
+constexpr double kEnergyLimit = 0.1;       // of what is exchanged
+constexpr double kLeastMotion = 1.0e-6;    // [rad] or [m]: less is no motion
+constexpr double kAdvisedShare = 0.2;      // of a limit: what an advised step aims at
+constexpr double kSlowest = 1.0e-3;        // a mode slower than this over the run is no mode
+constexpr double kStabilitySets = 0.8;     // of the stability limit: an adaptive method's end
+constexpr int kMostStates = 600;           // the eigenvalues of more take seconds an instant
 // Beyond this many states events are not looked at one by one: an instant costs a tenth of a
 // second.
 constexpr int kManyStates = 120;
@@ -328,13 +329,13 @@ void Judge::look_at_motion(std::span<const OwnEnergy* const> energies) {
 void Judge::look_at_accepted_errors() {
   const double attitude = kDegrees * run_.accepted.attitude;
   attitude_deg_ = attitude;
-  tolerance_factor_ = std::max(tolerance_factor_, attitude / kAttitudeLimit);
-  if (attitude > kAttitudeLimit)
-    findings_.push_back({ResolutionRule::kAdaptive, attitude / kAttitudeLimit, "rotation",
+  tolerance_factor_ = std::max(tolerance_factor_, attitude / kAcceptedAttitude);
+  if (attitude > kAcceptedAttitude)
+    findings_.push_back({ResolutionRule::kAdaptive, attitude / kAcceptedAttitude, "rotation",
                          std::nullopt,
                          fmt::format("the errors that the tolerance lets pass turn the hub by "
                                      "{:.2g} deg (limit {:.0f} deg)",
-                                     attitude, kAttitudeLimit)});
+                                     attitude, kAcceptedAttitude)});
   for (std::size_t joint = 0; joint < run_.accepted.joint.size(); ++joint) {
     const double error = run_.accepted.joint[joint] / amplitude_of(joint);
     tolerance_factor_ = std::max(tolerance_factor_, error / kErrorLimit);
@@ -463,6 +464,7 @@ Resolution explain_failure(const Model& model, const Inspection& inspection, con
   // What is seen late in such a run is what is left of the vehicle: the start tells, if it can.
   RunShown start = run;
   start.reached = 0.0;
+  start.motion = nullptr;
   Judge judge(model, inspection, start);
   judge.look_at_modes();
   const Resolution from_start = judge.conclude_failure();

@@ -4,8 +4,6 @@
 
 #include <algorithm>
 
-#include "compiler/ir/number.h"
-
 namespace twincraft {
 namespace {
 
@@ -29,7 +27,7 @@ RunShown shown(const EngineRun& run, const MotionRecord& record) {
 void explain(const Model& model, const Inspection& inspection, const MotionRecord& record,
              EngineRun& run, Member& member) {
   const Resolution why = explain_failure(model, inspection, shown(run, record));
-  run.reason = fmt::format("stopped at t = {} s: {}", shortest(run.trajectory.t_end),
+  run.reason = fmt::format("stopped at t = {:.9g} s: {}", run.trajectory.t_end,
                            why.reasons.empty() ? run.reason : why.reasons.front());
   if (!member.resolution || member.resolution->reasons.empty()) member.resolution = why;
 }
