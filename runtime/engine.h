@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "runtime/held.h"
 #include "runtime/observation.h"
 #include "runtime/state.h"
 
@@ -42,6 +43,13 @@ class Engine {
 
   /// The mass matrix over (v_B in N, omega in B, joint rates, wheel rates), for proofs.
   virtual Eigen::MatrixXd mass_matrix(std::span<const double> state) = 0;
+
+  /// The numbers it was built of. Nothing: its mass matrix tells them all, as that of a point mass.
+  virtual HeldMachine held() const { return {}; }
+
+  /// How large the terms are of which it forms mass matrix and forces at `state`, under the inputs
+  /// that are held.
+  virtual RoundingTerms rounding_terms(std::span<const double> /*state*/) { return {}; }
 };
 
 }  // namespace twincraft

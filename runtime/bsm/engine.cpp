@@ -146,6 +146,29 @@ class BsmEngine final : public Engine {
                              x.dcm_NB);
   }
 
+  HeldMachine held() const override {
+    HeldMachine machine;
+    for (const Link& link : assembly_.links) {
+      HeldLink held;
+      for (const MassElement& element : link.elements)
+        held.mass = held.mass + properties_of(element);
+      if (link.parent >= 0) {
+        const Joint& joint = link.joint;
+        held.r_HP_P = joint.r_HP_P;
+        held.reach = joint.r_HP_P.norm();
+        held.dcm_PL0 = joint.dcm_PL0;
+        held.axis_L = joint.axis_L;
+        held.stiffness = joint.stiffness;
+        held.damping = joint.damping;
+        held.rest = joint.rest;
+      }
+      machine.links.push_back(held);
+    }
+    for (const Rotor& rotor : assembly_.rotors)
+      machine.wheels.push_back({rotor.axis_L, rotor.spin_inertia});
+    return machine;
+  }
+
  private:
   struct State {
     Vector3d r_BN_N, v_BN_N, omega_BN_B;

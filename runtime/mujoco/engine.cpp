@@ -26,6 +26,8 @@
 #include "runtime/mujoco/draining.h"
 #include "runtime/mujoco/exchange.h"
 #include "runtime/mujoco/handles.h"
+#include "runtime/mujoco/held_model.h"
+#include "runtime/mujoco/inertia_terms.h"
 #include "runtime/mujoco/motion_sums.h"
 #include "runtime/mujoco/passive_joints.h"
 #include "runtime/mujoco/point_mass_engine.h"
@@ -72,6 +74,8 @@ class MujocoEngine final : public Engine {
   Observation observe(double time, std::span<const double> state) override;
   ExternalRates external_rates(double time, std::span<const double> state) override;
   Eigen::MatrixXd mass_matrix(std::span<const double> state) override;
+  HeldMachine held() const override { return held_by(*model_, map_); }
+  RoundingTerms rounding_terms(std::span<const double> state) override;
 
  private:
   void drain(double time);
@@ -83,6 +87,7 @@ class MujocoEngine final : public Engine {
   void gather_rates(const Vector3d& v_BN_N);
   Vector3d project_forces(const Vector3d& r_BN_N, const Matrix3d& dcm_NW);
   double joint_power() const;
+  std::vector<int> dof_order() const;
 
   Assembly assembly_;
   InitialState initial_;
@@ -325,15 +330,30 @@ double MujocoEngine::joint_power() const {
   return power;
 }
 
+// MuJoCo's degrees of freedom in our order.
+std::vector<int> MujocoEngine::dof_order() const {
+  std::vector<int> order = {0, 1, 2, 3, 4, 5};
+  order.insert(order.end(), map_.joint_dof.begin(), map_.joint_dof.end());
+  order.insert(order.end(), map_.wheel_dof.begin(), map_.wheel_dof.end());
+  return order;
+}
+
 Eigen::MatrixXd MujocoEngine::mass_matrix(std::span<const double> state) {
   move_to(state);
   mj_crb(model_.get(), data_.get());
   Eigen::MatrixXd mass(model_->nv, model_->nv);
   mj_fullM(model_.get(), mass.data(), data_->qM);
-  std::vector<int> order = {0, 1, 2, 3, 4, 5};
-  order.insert(order.end(), map_.joint_dof.begin(), map_.joint_dof.end());
-  order.insert(order.end(), map_.wheel_dof.begin(), map_.wheel_dof.end());
+  const std::vector<int> order = dof_order();
   return mass(order, order);
+}
+
+RoundingTerms MujocoEngine::rounding_terms(std::span<const double> state) {
+  move_to(state);
+  std::fill_n(data_->qfrc_passive, model_->nv, 0.0);
+  passive_.apply(*data_);
+  const RoundingTerms terms = inertia_terms(*model_, *data_);
+  const std::vector<int> order = dof_order();
+  return {terms.mass(order, order), terms.force(order)};
 }
 
 }  // namespace

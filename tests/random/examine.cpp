@@ -143,7 +143,7 @@ class Examination {
     bsm_ = make_bsm_engine(bundle_->model);
     mujoco_ = make_mujoco_engine(bundle_->model, bundle_->mjcf);
     for (const ProofLine& line : prove(bundle_->model, *bsm_, *mujoco_).lines)
-      if (!judge("BSM and MuJoCo, " + line.what, line.difference, kProofBound, line.where))
+      if (!judge("BSM and MuJoCo, " + line.what, line.difference, line.bound, line.where))
         return false;
     return true;
   }
