@@ -231,11 +231,13 @@ void MjcfPrinter::inertial(const MassProperties& properties) {
 
 void MjcfPrinter::picture(const TreeBody& body) {
   for (const Picture& each : pictures_of(model_, body)) {
-    leaf("geom", {{"type", each.type},
-                  {"size", text(each.size)},
-                  {"pos", text(each.pos)},
-                  {"quat", text(each.quat)},
-                  {"material", each.material}});
+    std::vector<Attribute> attributes = {{"type", each.type},
+                                         {"size", text(each.size)},
+                                         {"pos", text(each.pos)},
+                                         {"quat", text(each.quat)},
+                                         {"material", each.material}};
+    if (!each.name.empty()) attributes.insert(attributes.begin(), {"name", each.name});
+    leaf("geom", attributes);
   }
 }
 

@@ -28,21 +28,38 @@ double hub_size(const Model& model) {
   return equivalent_box(hub.mass, principal_inertia(hub.I_PntC_L).moments).minCoeff();
 }
 
-bool is_wheel(const Model& model, const TreeBody& body) {
-  return std::ranges::any_of(model.tree.wheels, [&](const TreeWheel& wheel) {
-    return !body.joints.empty() && body.joints.front().name == wheel.joint;
-  });
+const TreeWheel* wheel_of(const Model& model, const TreeBody& body) {
+  if (body.link >= 0) return nullptr;
+  const auto wheel = std::ranges::find(model.tree.wheels, body.name, &TreeWheel::joint);
+  return wheel == model.tree.wheels.end() ? nullptr : &*wheel;
 }
 
 // A disc a quarter as wide as the hub, as a token mass says nothing of its size, with a bar across
 // it, so that it can be seen to turn.
-std::vector<Picture> wheel_pictures(const Model& model, const TreeBody& body) {
+std::vector<Picture> wheel_pictures(const Model& model, const TreeBody& wheel,
+                                    const Vector3d& middle) {
   const double radius = 0.25 * hub_size(model), half_height = 0.2 * radius;
   const Quaterniond along =
-      Quaterniond::FromTwoVectors(Vector3d::UnitZ(), body.joints.front().axis);
-  const Vector3d middle = body.inertial.r_CL_L;
-  return {{"cylinder", {radius, half_height}, middle, along, "wheel"},
-          {"box", {0.85 * radius, 0.08 * radius, 1.12 * half_height}, middle, along, "wheel_mark"}};
+      Quaterniond::FromTwoVectors(Vector3d::UnitZ(), wheel.joints.front().axis);
+  return {{"cylinder", {radius, half_height}, middle, along, "wheel", wheel.name},
+          {"box",
+           {0.85 * radius, 0.08 * radius, 1.12 * half_height},
+           middle,
+           along,
+           "wheel_mark",
+           wheel.name + ".mark"}};
+}
+
+// The wheels whose bodies are tokens are drawn on their mounts, where they are.
+void add_carried_wheels(const Model& model, const TreeBody& mount, std::vector<Picture>& pictures) {
+  const std::vector<TreeBody>& bodies = model.tree.bodies;
+  for (const TreeWheel& wheel : model.tree.wheels) {
+    if (!wheel.center) continue;
+    const TreeBody& body = bodies[static_cast<std::size_t>(wheel.body)];
+    if (&bodies[static_cast<std::size_t>(body.parent)] != &mount) continue;
+    for (Picture& each : wheel_pictures(model, body, *wheel.center))
+      pictures.push_back(std::move(each));
+  }
 }
 
 // A ball on a rod, whose volume is the mass's share of hub and ball.
@@ -77,6 +94,13 @@ Picture look_picture(const Look& look) {
   return {"box", {half.x(), half.y(), half.z()}, look.pos, look.quat, material};
 }
 
+std::vector<Picture> body_pictures(const Model& model, const TreeBody& body) {
+  if (body.look && body.look->part == Look::Part::kSlosh) return slosh_pictures(model, body);
+  if (body.look) return {look_picture(*body.look)};
+  if (!(body.inertial.mass > 0.0)) return {};
+  return {box_of(body.inertial, body.parent < 0 ? "hub" : "body")};
+}
+
 double radius_of(const Picture& picture) {
   double sum = 0.0;
   for (const double half : picture.size) sum += half * half;
@@ -86,11 +110,13 @@ double radius_of(const Picture& picture) {
 }  // namespace
 
 std::vector<Picture> pictures_of(const Model& model, const TreeBody& body) {
-  if (is_wheel(model, body)) return wheel_pictures(model, body);
-  if (body.look && body.look->part == Look::Part::kSlosh) return slosh_pictures(model, body);
-  if (body.look) return {look_picture(*body.look)};
-  if (!(body.inertial.mass > 0.0)) return {};
-  return {box_of(body.inertial, body.parent < 0 ? "hub" : "body")};
+  if (const TreeWheel* const wheel = wheel_of(model, body); wheel != nullptr) {
+    if (wheel->center) return {};  // drawn on its mount
+    return wheel_pictures(model, body, body.inertial.r_CL_L);
+  }
+  std::vector<Picture> pictures = body_pictures(model, body);
+  add_carried_wheels(model, body, pictures);
+  return pictures;
 }
 
 const std::vector<PictureMaterial>& picture_materials() {

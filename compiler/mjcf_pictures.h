@@ -18,6 +18,7 @@ struct Picture {
   Vector3d pos;      // [m] body axes
   Quaterniond quat;  // geom to body
   std::string material;
+  std::string name = {};  // of what turns with a wheel: the wheel's, before a dot
 };
 
 std::vector<Picture> pictures_of(const Model& model, const TreeBody& body);

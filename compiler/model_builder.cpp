@@ -165,10 +165,11 @@ int ModelBuilder::add_wheel(const Mount& mount, const Rotor& rotor, const MassEl
   model_.assembly.rotors.back().axis_L = mount.dcm_LM * rotor.axis_L;
   put(model_.initial.rotor_speed, index, 0.0);
 
-  const bool massless = element.mass == 0.0;
-  MassElement wheel = element;  // as it sits in its own body: at the origin
-  wheel.r_EL_L.setZero();
-  if (massless) wheel.mass = model_.engines.wheel_mass;
+  CarriedWheel wheel{mount, element, size_of(model_.tree.bodies)};
+  MassElement token;
+  token.name = element.name;
+  token.mass = model_.engines.wheel_mass;
+  if (!wheel.massless()) token.mass = std::min(token.mass, element.mass);
 
   TreeBody body;
   body.name = rotor.name;
@@ -178,17 +179,18 @@ int ModelBuilder::add_wheel(const Mount& mount, const Rotor& rotor, const MassEl
   hinge.name = rotor.name;
   hinge.axis = rotor.axis_L;
   body.joints.push_back(hinge);
-  body.inertial = properties_of(wheel);
-  if (massless) {
-    massless_.push_back({mount, element});
-    wheel.I_PntE_L.setZero();  // gravity finds the tensor on the mount
-    if (!model_.engines.compensate) body.elements.push_back(wheel);
-  } else {
-    at(model_.assembly.links, mount.link).elements.push_back(on_link(mount, element));
-    body.elements.push_back(wheel);
-  }
+  body.inertial = {token.mass, Vector3d::Zero(), element.I_PntE_L};
+  if (is_on_top(wheel)) body.elements.push_back(token);
   model_.tree.bodies.push_back(std::move(body));
-  model_.tree.wheels.push_back({rotor.name, index});
+  model_.tree.wheels.push_back({rotor.name, index, wheel.body});
+
+  if (!wheel.massless()) {
+    at(model_.assembly.links, mount.link).elements.push_back(on_link(mount, element));
+    MassElement on_mount = element;
+    on_mount.I_PntE_L.setZero();  // until the inertials are formed: the wheel's body has the tensor
+    at(model_.tree.bodies, mount.body).elements.push_back(on_mount);
+  }
+  wheels_.push_back(std::move(wheel));
   return index;
 }
 
@@ -213,35 +215,47 @@ void ModelBuilder::add_load(const Mount& mount, Load load) {
 
 Model ModelBuilder::build() && {
   form_inertials();
-  carry_massless_wheels();
+  take_tokens_out();
+  carry_wheel_tensors();
   refuse_deep_chains();
   return std::move(model_);
 }
 
 void ModelBuilder::form_inertials() {
   for (TreeBody& body : model_.tree.bodies) {
-    if (body.link < 0) continue;  // a wheel, which brought its own
+    if (body.link < 0) continue;  // a wheel's, which brought its own
     MassProperties sum;
     sum.I_PntC_L = body.token_inertia * Matrix3d::Identity();
     for (const MassElement& element : body.elements) sum = sum + properties_of(element);
     body.inertial = sum;
   }
-  if (!model_.engines.compensate) return;
-  for (const MasslessWheel& wheel : massless_) {
-    MassElement token;
-    token.mass = -model_.engines.wheel_mass;
-    token.r_EL_L = wheel.element.r_EL_L;
-    MassProperties& inertial = at(model_.tree.bodies, wheel.mount.body).inertial;
-    inertial = inertial + properties_of(token);
+}
+
+bool ModelBuilder::is_on_top(const CarriedWheel& wheel) const {
+  return wheel.massless() && !model_.engines.compensate;
+}
+
+// At the mount's centre of mass, so that nothing but the mass of its inertial changes.
+void ModelBuilder::take_tokens_out() {
+  for (std::size_t i = 0; i < wheels_.size(); ++i) {
+    const CarriedWheel& wheel = wheels_[i];
+    if (is_on_top(wheel)) continue;
+    MassProperties& mount = at(model_.tree.bodies, wheel.mount.body).inertial;
+    TreeBody& token = at(model_.tree.bodies, wheel.body);
+    mount.mass -= token.inertial.mass;
+    token.pos = mount.r_CL_L;
+    model_.tree.wheels[i].center = wheel.element.r_EL_L;
   }
 }
 
-void ModelBuilder::carry_massless_wheels() {
-  for (const MasslessWheel& wheel : massless_) {
-    MassElement& on_body = at(model_.tree.bodies, wheel.mount.body).elements.at(0);
-    on_body.I_PntE_L += wheel.element.I_PntE_L;
+void ModelBuilder::carry_wheel_tensors() {
+  for (const CarriedWheel& wheel : wheels_) {
+    std::vector<MassElement>& on_body = at(model_.tree.bodies, wheel.mount.body).elements;
+    MassElement& element = wheel.massless() ? on_body.at(0) : named(on_body, wheel.element.name);
+    element.I_PntE_L += wheel.element.I_PntE_L;
+    if (!wheel.massless()) continue;  // the assembly has its element
     Link& link = at(model_.assembly.links, wheel.mount.link);
-    named(link.elements, on_body.name).I_PntE_L += on_link(wheel.mount, wheel.element).I_PntE_L;
+    named(link.elements, element.name).I_PntE_L += on_link(wheel.mount, wheel.element).I_PntE_L;
   }
 }
 

@@ -1,11 +1,16 @@
 // What a component may add to the model. Each call adds to both halves at once, so that no
 // component can forget one; the ledger entries and names pass through here and nowhere else.
 //
-// Wheels are where the halves differ. The analytic half carries a massless wheel's tensor on its
+// Wheels are where the halves differ. The analytic half carries a wheel's mass and tensor on its
 // mount. MuJoCo needs a body with a mass, so the tree gives the wheel its own tensor and a token
-// mass, and takes the token back out of the mount (`compensate`), so that mount and wheel together
-// are the massless-wheel vehicle exactly. For gravity the wheel's tensor adds to the first element
-// of its mount in both halves: mount and massless wheel are one rigid body.
+// mass. The mount carries all the mass that the spec gives mount and wheel, less the token, so that
+// mount and wheel together are the spec's vehicle exactly. A spinning mass m at a distance r from
+// the vehicle's centre of mass would round as m r^2 Omega^2 in MuJoCo; a token does not. The token
+// sits at the mount's centre of mass: its place plays no part in the motion, and taking it out
+// there moves neither the mount's centre of mass nor its principal axes, by amounts that MuJoCo 3
+// would ignore. Only with `compensate: false` is the token of a massless wheel on top, in its
+// place. For gravity a massless wheel's tensor adds to the first element of its mount in both
+// halves: mount and massless wheel are one rigid body. A wheel with mass is an element of its own.
 //
 // Fixed bodies are the other difference. The analytic half knows none: what is put on one is put on
 // the link that carries it, in that link's axes. The tree welds a body of its own.
@@ -78,7 +83,8 @@ class ModelBuilder {
   const EngineControls& controls() const { return model_.engines; }
 
   /// A balanced wheel: gyrostat of its mount here, a body with a hinge there. `element` is the
-  /// wheel's mass (zero: massless), place and tensor in mount axes; `rotor.link` is set here.
+  /// wheel's mass (zero: counted in the mount's), place and tensor in mount axes; `rotor.link` is
+  /// set here.
   /// @pre the mount has mass of its own. @return the index of the rotor
   int add_wheel(const Mount& mount, const Rotor& rotor, const MassElement& element);
 
@@ -94,18 +100,23 @@ class ModelBuilder {
   Model build() &&;
 
  private:
-  struct MasslessWheel {
+  struct CarriedWheel {
     Mount mount;
     MassElement element;
+    int body = 0;  // of the tree
+    bool massless() const { return element.mass == 0.0; }
   };
 
+  /// A massless wheel whose token is not taken out of the mount.
+  bool is_on_top(const CarriedWheel& wheel) const;
   void form_inertials();
-  void carry_massless_wheels();
+  void take_tokens_out();
+  void carry_wheel_tensors();
   void refuse_deep_chains();
 
   Model model_;
   std::map<std::string, Mount> mounts_;
-  std::vector<MasslessWheel> massless_;
+  std::vector<CarriedWheel> wheels_;  // in the order of the tree's
 };
 
 }  // namespace twincraft

@@ -42,17 +42,22 @@ const Table<MujocoSpec>& mujoco_table() {
                                         {"inertial", MujocoFrame::kInertial}}),
                    "`comoving`: evaluated in the frame that moves with the hub. `inertial`: MuJoCo "
                    "gets the raw state, with the rounding of its large velocity."),
-          optional("wheel_mass", &MujocoSpec::wheel_mass, quantity("kg", Range::kPositive),
-                   "Token mass of a massless wheel, which MuJoCo cannot do without."),
+          optional(
+              "wheel_mass", &MujocoSpec::wheel_mass, quantity("kg", Range::kPositive),
+              "Token mass of a wheel's body, which MuJoCo cannot do without. The mount carries "
+              "the rest of the wheel's mass. A token is never more than a wheel's own mass."),
           optional("bob_inertia", &MujocoSpec::bob_inertia, quantity("kg m2", Range::kNotNegative),
                    "Token inertia of pendulum bobs, in MuJoCo alone and in proportion to their "
                    "mass. 0: the least that loads, and exactly zero in a run."),
           optional("particle_inertia", &MujocoSpec::particle_inertia,
                    quantity("kg m2", Range::kNotNegative),
                    "Token inertia of slosh particles, likewise."),
-          optional("compensate", &MujocoSpec::compensate, boolean(),
-                   "Take the token masses back out of what carries the wheels, so that the tree is "
-                   "exactly the massless-wheel vehicle; `false` adds them on top."),
+          optional(
+              "compensate", &MujocoSpec::compensate, boolean(),
+              "Take the token masses back out of what carries the wheels, so that the tree is "
+              "exactly the spec's vehicle. The wheels' bodies then sit at the centres of mass of "
+              "their mounts, where taking them out moves nothing. `false` adds the tokens of "
+              "massless wheels on top, at the wheels' positions."),
           optional("gravity", &MujocoSpec::gravity, maybe(gravity_law()),
                    "Overrides `environment.gravity.application` for this engine."),
       }};

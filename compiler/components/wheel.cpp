@@ -30,9 +30,11 @@ const Table<WheelSpec>& wheel_table() {
           required("transverse_inertia", &WheelSpec::transverse_inertia,
                    quantity("kg m2", Range::kPositive),
                    "About every axis across the spin axis, through the wheel's centre."),
-          optional("mass", &WheelSpec::mass, quantity("kg", Range::kNotNegative),
-                   "0: the wheel's mass is counted in its mount's, the massless-wheel "
-                   "idealisation. More: a mass at `position` in both engines."),
+          optional(
+              "mass", &WheelSpec::mass, quantity("kg", Range::kNotNegative),
+              "Mass of the wheel. With 0 (default) the mount's mass already includes the wheel "
+              "and `position` plays no part. A positive mass acts at `position` in both "
+              "engines, and gravity pulls on it there."),
           optional("speed", &WheelSpec::speed, quantity("rad/s"),
                    "Initial spin relative to the mount."),
           optional("torque", &WheelSpec::torque, schedule("N m"),

@@ -1,8 +1,8 @@
 // A balanced reaction wheel: a rotor whose centre of mass lies on its spin axis and whose tensor is
 // the same at every spin angle, Jt 1 + (Js - Jt) a a^T. Only its spin relative to the mount is a
 // state. Without mass it is the usual idealisation: its mass is counted in the mount's, its whole
-// tensor adds to the mount's, and where it sits does not matter.
-// Tested by tests/compiler/wheel_test.cpp.
+// tensor adds to the mount's, and where it sits does not matter. With a mass it is a mass of its
+// own on the mount, at its position. Tested by tests/compiler/wheel_test.cpp.
 #pragma once
 
 #include "compiler/components/names.h"

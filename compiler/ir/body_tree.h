@@ -57,6 +57,10 @@ struct TreeBody {
 struct TreeWheel {
   std::string joint;  // also the motor's name
   int rotor = 0;      // index in Assembly::rotors
+  int body = -1;      // index in BodyTree::bodies
+  // [m] the wheel's centre in its mount's axes, where the wheel's body is a token that sits at the
+  // mount's centre of mass; nothing: the body is at the wheel's centre.
+  std::optional<Vector3d> center = {};
 };
 
 struct BodyTree {

@@ -5,9 +5,9 @@
 // the hub's origin at rest at zero and the hub's axes along the world's: accelerations do not
 // depend on a common velocity or attitude, and two kinds of rounding are gone. Kilometres per
 // second leave m v^2 in MuJoCo's bias forces; a fast wheel leaves Js Omega^2 there unless its axis
-// lies along a world axis, as those of most wheels lie along a hub axis. A wheel is always handed
-// over at angle zero: it is balanced, so its angle changes neither mass nor inertia, and none is
-// integrated.
+// lies along a world axis, as those of most wheels lie along a hub axis. Other wheels get a tensor
+// without axes, see round_wheels.h. A wheel is always handed over at angle zero: it is balanced, so
+// its angle changes neither mass nor inertia, and none is integrated.
 // Tested by tests/runtime/mujoco_test.cpp.
 #include "runtime/mujoco/engine.h"
 
@@ -31,6 +31,7 @@
 #include "runtime/mujoco/motion_sums.h"
 #include "runtime/mujoco/passive_joints.h"
 #include "runtime/mujoco/point_mass_engine.h"
+#include "runtime/mujoco/round_wheels.h"
 #include "runtime/mujoco/tree_map.h"
 #include "runtime/mujoco/wrenches.h"
 
@@ -94,6 +95,7 @@ class MujocoEngine final : public Engine {
   Placement placement_;
   GravityLaw law_;
   MujocoModel model_;
+  std::vector<int> round_wheels_;
   MujocoData data_;
   TreeMap map_;
   Exchange exchange_;
@@ -116,6 +118,7 @@ MujocoEngine::MujocoEngine(const Model& model, const std::string& mjcf)
       placement_(placement_of(model.engines.frame)),
       law_(model.gravity.mujoco),
       model_(load(model, mjcf)),
+      round_wheels_(make_wheels_round(model.tree, *model_)),
       data_(make_data(*model_)),
       map_(map_tree(model, *model_)),
       exchange_(assembly_, map_),
@@ -174,6 +177,7 @@ void MujocoEngine::derivative(double time, std::span<const double> state, std::s
   drain(time);
   exchange_.hand_over(state.data(), placement_, *d);
   mj_kinematics(m, d);
+  align_round_wheels(round_wheels_, *d);
   mj_comPos(m, d);
   const double* applied = inputs_.data();
   Vector3d fall_N = Vector3d::Zero();
@@ -241,6 +245,7 @@ Vector3d MujocoEngine::project_forces(const Vector3d& r_BN_N, const Matrix3d& dc
 MotionSums MujocoEngine::move_to(std::span<const double> state) {
   exchange_.hand_over(state.data(), Placement::kCentred, *data_);
   mj_kinematics(model_.get(), data_.get());
+  align_round_wheels(round_wheels_, *data_);
   mj_comPos(model_.get(), data_.get());
   mj_comVel(model_.get(), data_.get());
   gather_poses();

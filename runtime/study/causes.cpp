@@ -69,12 +69,11 @@ std::string why_speed_stays(const Bundle& bundle) {
 // ---- tokens
 
 bool adds_wheel_mass(const Bundle& bundle) {
-  const EngineControls& engines = bundle.model.engines;
+  // A token that was taken out of its mount is no element.
   const std::vector<TreeBody>& bodies = bundle.model.tree.bodies;
-  return !engines.compensate &&
-         std::any_of(bodies.begin(), bodies.end(), [&engines](const TreeBody& body) {
-           return body.link < 0 && body.inertial.mass == engines.wheel_mass;
-         });
+  return !bundle.model.engines.compensate &&
+         std::any_of(bodies.begin(), bodies.end(),
+                     [](const TreeBody& body) { return body.link < 0 && !body.elements.empty(); });
 }
 
 std::vector<Scaling> scale_wheel_mass(const Bundle& bundle) {

@@ -50,6 +50,19 @@ TEST(ModelBuilder, TakesTheTokenMassOutOfTheMountExactly) {
   EXPECT_LT((whole.I_PntC_L - bare).norm(), 1e-12);
 }
 
+// MuJoCo 3 ignores offsets and turns of an inertial below 1e-6: a token must cause none.
+TEST(ModelBuilder, TakesTheTokenOutWhereItMovesNothingOfItsMount) {
+  const Model model = boom_and_wheels().build();
+  const TreeBody& hub = model.tree.bodies[0];
+  EXPECT_EQ(hub.inertial.mass, 600.0 - 1e-6);
+  EXPECT_EQ(hub.inertial.r_CL_L, Vector3d(0.1, -0.2, 0.05));
+  EXPECT_EQ(hub.inertial.I_PntC_L, Matrix3d(Vector3d(400.0, 380.0, 360.0).asDiagonal()));
+  EXPECT_EQ(body(model, "rw_light").pos, hub.inertial.r_CL_L);
+  EXPECT_EQ(model.tree.wheels[0].center, Vector3d(0.3, 0.0, 0.1));
+  EXPECT_EQ(model.tree.bodies.at(static_cast<std::size_t>(model.tree.wheels[0].body)).name,
+            "rw_light");
+}
+
 TEST(ModelBuilder, LeavesTheTokenOnTopWithoutCompensation) {
   EngineControls controls;
   controls.compensate = false;
@@ -77,11 +90,37 @@ TEST(ModelBuilder, GivesAWheelWithMassItsOwnElementInBothHalves) {
   ASSERT_EQ(boom.elements.size(), 2u);
   EXPECT_EQ(boom.elements[1].name, "rw_heavy");
   EXPECT_EQ(boom.elements[1].r_EL_L, Vector3d(0.5, 0.2, 0.0));
-  const TreeBody& wheel = body(model, "rw_heavy");
-  EXPECT_EQ(wheel.inertial.mass, 4.0);
-  EXPECT_EQ(wheel.elements.at(0).r_EL_L, Vector3d::Zero());
-  EXPECT_EQ(body(model, "boom").inertial.mass, 50.0);
+  const TreeBody& on_boom = body(model, "boom");
+  ASSERT_EQ(on_boom.elements.size(), 2u);
+  EXPECT_EQ(on_boom.elements[1].name, "rw_heavy");
+  EXPECT_EQ(on_boom.elements[1].r_EL_L, Vector3d(0.5, 0.2, 0.0));
+  EXPECT_EQ(on_boom.elements[1].I_PntE_L, boom.elements[1].I_PntE_L);
   EXPECT_EQ(model.assembly.rotors[1].link, 1);
+}
+
+TEST(ModelBuilder, LeavesOnlyATokenOfAWheelsMassInItsBody) {
+  const Model model = boom_and_wheels().build();
+  const TreeBody& boom = body(model, "boom");
+  const TreeBody& wheel = body(model, "rw_heavy");
+  EXPECT_EQ(wheel.inertial.mass, 1e-6);
+  EXPECT_TRUE(wheel.elements.empty());
+  EXPECT_EQ(wheel.pos, boom.inertial.r_CL_L);
+  EXPECT_NEAR(boom.inertial.mass, 54.0 - 1e-6, 1e-14);
+  const Vector3d center = (50.0 * Vector3d(1.2, 0.0, 0.0) + 4.0 * Vector3d(0.5, 0.2, 0.0)) / 54.0;
+  EXPECT_LT((boom.inertial.r_CL_L - center).norm(), 1e-15);
+  // The wheel's body brings the wheel's tensor; the mount has its mass as that of a point.
+  const double bare = 3.0 + 20.0 + 21.0;
+  const double apart = (Vector3d(1.2, 0.0, 0.0) - Vector3d(0.5, 0.2, 0.0)).squaredNorm();
+  EXPECT_NEAR(boom.inertial.I_PntC_L.trace(), bare + 2.0 * 50.0 * 4.0 / 54.0 * apart, 1e-12);
+}
+
+TEST(ModelBuilder, TakesNoMoreThanAWheelsOwnMassOutOfItsMount) {
+  EngineControls controls;
+  controls.wheel_mass = 100.0;
+  controls.compensate = false;
+  const Model model = boom_and_wheels(controls).build();
+  EXPECT_EQ(body(model, "rw_heavy").inertial.mass, 4.0);
+  EXPECT_NEAR(body(model, "boom").inertial.mass, 50.0, 1e-13);
 }
 
 TEST(ModelBuilder, PutsWhatAFixedBodyCarriesOnItsLink) {
@@ -109,7 +148,7 @@ TEST(ModelBuilder, CarriesAMasslessWheelOfAFixedBodyOnThatBodysElement) {
   EXPECT_EQ(on_boom.at(0).I_PntE_L.trace(), 44.0);
   EXPECT_NEAR(on_boom.at(1).I_PntE_L.trace(), 1.2 + wheel, 1e-14);
   EXPECT_NEAR(body(model, "bracket").elements.at(0).I_PntE_L.trace(), 1.2 + wheel, 1e-14);
-  EXPECT_NEAR(body(model, "bracket").inertial.mass, 6.0 - 1e-6, 1e-15);
+  EXPECT_NEAR(body(model, "bracket").inertial.mass, 6.0 + 4.0 - 2e-6, 1e-14);
 }
 
 TEST(ModelBuilder, TurnsALoadOnAFixedBodyIntoTheAxesOfItsLink) {

@@ -18,6 +18,9 @@ class Vehicle {
     this.root = new THREE.Group();
     /** @type {Map<string, {group: any, axis: any, slides: boolean}>} */
     this.joints = new Map();
+    /** What turns with a wheel, about its own z axis, where the wheel's body is a token elsewhere.
+     *  @type {Map<string, any[]>} */
+    this.discs = new Map();
     /** @type {{drawn: any, sign: number, force: number[][], largest: number}[]} */
     this.forces = [];
     this.materials = new Map(childrenNamed(childrenNamed(mjcf.documentElement, "asset")[0] || mjcf.documentElement, "material")
@@ -56,8 +59,12 @@ class Vehicle {
   addGeom(geom, group) {
     const shape = geometryOf(geom.getAttribute("type"), numbersIn(geom.getAttribute("size"), [0.1]));
     if (!shape) return;
+    const placed = new THREE.Group();
+    place(placed, geom);
     const node = new THREE.Group();
-    place(node, geom);
+    placed.add(node);
+    const wheel = (geom.getAttribute("name") || "").split(".")[0];
+    if (wheel) this.discs.set(wheel, [...(this.discs.get(wheel) || []), node]);
     if (this.look.solid) {
       const [r, g, b, alpha] = this.materials.get(geom.getAttribute("material")) || numbersIn(geom.getAttribute("rgba"), [0.6, 0.7, 0.8, 1]);
       const mesh = new THREE.Mesh(shape, new THREE.MeshLambertMaterial({ color: new THREE.Color(r, g, b), transparent: alpha < 1, opacity: alpha,
@@ -65,7 +72,7 @@ class Vehicle {
       node.add(mesh);
     }
     node.add(this.outline(geom.getAttribute("type") === "sphere" ? greatCircles(shape.parameters.radius) : new THREE.EdgesGeometry(shape, 25)));
-    group.add(node);
+    group.add(placed);
   }
 
   /** Over a solid vehicle dashes, so that both colours are seen where both lines are.
@@ -96,7 +103,7 @@ class Vehicle {
   /** @param {State} state @param {number} factor of deflections */
   pose(state, factor) {
     state.joints.forEach((value, name) => this.turn(name, factor * value));
-    state.wheels.forEach((angle, name) => this.turn(name, angle));
+    state.wheels.forEach((angle, name) => this.spin(name, angle));
     for (const { drawn, sign, force, largest } of this.forces) {
       const row = [...force].reverse().find((r) => r[0] <= state.time) || [0, 0, 0, 0];
       const now = new THREE.Vector3(row[1], row[2], row[3]);
@@ -105,6 +112,12 @@ class Vehicle {
       drawn.scale.setScalar(this.extent * (0.2 + 0.35 * now.length() / largest));
       drawn.quaternion.setFromUnitVectors(new THREE.Vector3(0, 1, 0), now.normalize().multiplyScalar(sign));
     }
+  }
+
+  /** @param {string} name @param {number} angle */
+  spin(name, angle) {
+    const discs = this.discs.get(name) || [];
+    discs.forEach((disc) => disc.quaternion.setFromAxisAngle(new THREE.Vector3(0, 0, 1), angle));
   }
 
   /** @param {string} name @param {number} value */
