@@ -11,6 +11,7 @@
 #include "runtime/report/attribution_table.h"
 #include "runtime/report/attribution_words.h"
 #include "runtime/study/in_order.h"
+#include "runtime/study/mujoco_rounding.h"
 
 namespace twincraft {
 namespace {
@@ -102,12 +103,16 @@ std::vector<VariantResult> run_variants(const Variants& variants, const Subject&
   return results;
 }
 
-/// Attitude, unless that is rounding and the centre of mass is not.
+/// Attitude, unless that is rounding and the centre of mass or a joint is not.
 Subject choose(const ReportedMember& member) {
-  const std::vector<Subject> subjects = subjects_of(
-      member.bundle.model, trajectory_of(member.result, 0), trajectory_of(member.result, 1));
-  for (const Subject& subject : subjects)
-    if (!(error_of(subject, member.result).maximum() <= subject.rounding)) return subject;
+  const Trajectory& mujoco = trajectory_of(member.result, 1);
+  std::vector<Subject> subjects =
+      subjects_of(member.bundle.model, trajectory_of(member.result, 0), mujoco);
+  for (Subject& subject : subjects) {
+    if (error_of(subject, member.result).maximum() <= subject.rounding) continue;
+    subject.mujoco_rounding = mujoco_rounding(member.bundle, subject, mujoco);
+    return subject;
+  }
   return subjects.front();
 }
 

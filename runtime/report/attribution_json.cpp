@@ -24,6 +24,8 @@ std::string_view kind_name(Remainder kind) {
       return "rounding";
     case Remainder::kIntegrator:
       return "integrator";
+    case Remainder::kMujocoRounding:
+      return "mujoco_rounding";
     case Remainder::kUnknown:
       return "unknown";
     case Remainder::kUnexplained:
@@ -53,9 +55,12 @@ Json attribution_json(const Attribution& attribution) {
 
 Json explanation_json(const Attribution& attribution, const Model& model) {
   const std::optional<double>& order = attribution.remainder_order;
-  return {{"metric", attribution.subject.metric},
+  const Subject& subject = attribution.subject;
+  return {{"metric", subject.metric},
+          {"coordinate", subject.joint ? Json(subject.coordinate) : Json(nullptr)},
           {"maximum", attribution.maximum},
-          {"rounding", attribution.subject.unit * attribution.subject.rounding},
+          {"rounding", subject.unit * subject.rounding},
+          {"mujoco_rounding", subject.unit * subject.mujoco_rounding},
           {"nothing_to_explain", attribution.is_rounding},
           {"remainder", attribution.remainder},
           {"remainder_is", kind_name(attribution.kind)},

@@ -39,7 +39,10 @@ std::string attribution_table(const Report& report, bool colour) {
   const ReportedMember& member = report.members.front();
   const Model& model = member.bundle.model;
   const Attribution& attribution = *report.attribution;
-  const auto [label, unit] = words_of(attribution.subject.metric, model);
+  const auto [name, unit] = words_of(attribution.subject.metric, model);
+  const std::string label = attribution.subject.joint
+                                ? fmt::format("{} (`{}`)", name, attribution.subject.coordinate)
+                                : name;
   std::string text = heading(model) + agreement_block(member, colour);
   if (!attribution.is_rounding) {
     if (!attribution.causes.empty())

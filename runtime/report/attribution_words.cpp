@@ -50,6 +50,19 @@ std::string amount(double value, const Attribution& attribution, const Model& mo
   return quantity(value, words_of(attribution.subject.metric, model).unit);
 }
 
+/// `joint angles (`cam`)`
+std::string subject_words(const Subject& subject, const Model& model) {
+  const std::string label = words_of(subject.metric, model).label;
+  return subject.joint ? fmt::format("{} (`{}`)", label, subject.coordinate) : label;
+}
+
+/// How much of MuJoCo's rounding there may be.
+std::string predicted(const Attribution& attribution, const Model& model) {
+  if (attribution.kind != Remainder::kMujocoRounding) return {};
+  const double limit = attribution.subject.unit * attribution.subject.mujoco_rounding;
+  return fmt::format(" (it is predicted to stay below {})", amount(limit, attribution, model));
+}
+
 }  // namespace
 
 std::string law_words(const ScalingLaw& law) {
@@ -76,6 +89,8 @@ std::string remainder_words(const Attribution& attribution) {
       return "rounding";
     case Remainder::kIntegrator:
       return fmt::format("the integrator's error, {}", order_words(*attribution.remainder_order));
+    case Remainder::kMujocoRounding:
+      return "rounding in MuJoCo, which refers all inertias to the vehicle's centre of mass";
     case Remainder::kUnknown:
       return "not run to the end";
     case Remainder::kUnexplained:
@@ -85,7 +100,7 @@ std::string remainder_words(const Attribution& attribution) {
 }
 
 std::string conclusion(const Attribution& attribution, const Model& model) {
-  const std::string label = words_of(attribution.subject.metric, model).label;
+  const std::string label = subject_words(attribution.subject, model);
   const std::string maximum = amount(attribution.maximum, attribution, model);
   if (attribution.is_rounding)
     return fmt::format(
@@ -95,22 +110,28 @@ std::string conclusion(const Attribution& attribution, const Model& model) {
     return fmt::format("not explained to the end: {}", attribution.failure);
   const std::string remainder = amount(attribution.remainder, attribution, model);
   const std::vector<std::string> names = dominant(attribution);
+  const std::string limit = predicted(attribution, model);
   if (names.empty())
-    return fmt::format("{} differs by {}: {}", label, maximum, remainder_words(attribution));
-  return fmt::format("{} {} the {} difference of {}; what remains, {}, is {}",
+    return fmt::format("{} differs by {}: {}{}", label, maximum, remainder_words(attribution),
+                       limit);
+  return fmt::format("{} {} the {} difference of {}; what remains, {}, is {}{}",
                      fmt::join(names, " and "), names.size() == 1 ? "carries" : "carry", label,
-                     maximum, remainder, remainder_words(attribution));
+                     maximum, remainder, remainder_words(attribution), limit);
 }
 
 std::string_view attribution_method() {
   return "share: the part of the difference, sample by sample and with its direction, that goes "
          "when the cause alone is taken away, sum (e - e_without) . e over sum e . e, where e is "
          "the rotation vector from one engine's attitude to the other's (or the distance of the "
-         "centres of mass) in inertial components; shares of causes that add up add up to 100 %, a "
+         "centres of mass) in inertial components, or the difference of one joint; shares of "
+         "causes that add up add up to 100 %, a "
          "negative one works against the others. law: exponent of the largest e - e_without over "
          "the scaled variable, both with and without the cause, by least squares over what stands "
          "30 times out of the remainder. remainder: all causes taken away; rounding when below one "
-         "unit in the last place per step, the integrator's when it falls with the step.";
+         "unit in the last place per step, the integrator's when it falls with the step. Rounding "
+         "in MuJoCo cannot be taken away. It is predicted from the sizes of the terms that MuJoCo "
+         "sums, m r^2 about the vehicle's centre of mass, as an error of the accelerations that "
+         "keeps its sign over the whole run.";
 }
 
 }  // namespace twincraft

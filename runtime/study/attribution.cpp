@@ -17,6 +17,8 @@ constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 constexpr double kOutOfTheNoise = 30.0;
 /// Half of Euler's order; a difference of the machines has order zero.
 constexpr double kLeastOrder = 0.5;
+/// Rounding is another at another step, and may come out a little smaller by chance.
+constexpr double kOrderByChance = 1.5;
 
 std::string_view path_of(std::string_view change) { return change.substr(0, change.find('=')); }
 
@@ -169,6 +171,46 @@ void judge_remainder(const Variations& variations, std::size_t all, std::size_t 
     result.remainder_order = std::log2(left / at_half);
     if (*result.remainder_order > kLeastOrder) result.kind = Remainder::kIntegrator;
   }
+  const bool falls_with_the_step = result.remainder_order.value_or(0.0) > kOrderByChance;
+  if (result.kind != Remainder::kRounding && left <= result.subject.mujoco_rounding &&
+      !falls_with_the_step)
+    result.kind = Remainder::kMujocoRounding;
+}
+
+/// Whose unit the report has for joints of its kind.
+std::string metric_of(Coordinate::Kind kind) {
+  switch (kind) {
+    case Coordinate::Kind::kBodyDisplacement:
+      return "joint_m";
+    case Coordinate::Kind::kParticle:
+      return "slosh_m";
+    case Coordinate::Kind::kPendulum:
+      return "pendulum_deg";
+    default:
+      return "joint_deg";
+  }
+}
+
+/// @param steps  rounding adds up over them
+std::optional<Subject> worst_joint(const Model& model, const Trajectory& a, const Trajectory& b,
+                                   double steps) {
+  std::optional<Subject> worst;
+  double largest = 0.0;  // in units of rounding
+  for (const Coordinate& coordinate : model.coordinates) {
+    if (coordinate.kind == Coordinate::Kind::kWheel) continue;
+    const auto joint = static_cast<std::size_t>(coordinate.index - 1);
+    double size = 0.0;
+    for (const Observation& sample : a.samples)
+      size = std::max(size, std::abs(sample.joint_position[joint]));
+    Subject subject{metric_of(coordinate.kind),
+                    coordinate.is_length() ? 1.0 : 180.0 / std::numbers::pi,
+                    kEpsilon * steps * size, joint, coordinate.name};
+    const double off = error_of(subject, a, b).maximum();
+    if (!(off > largest * subject.rounding)) continue;
+    largest = off / subject.rounding;
+    worst = std::move(subject);
+  }
+  return worst;
 }
 
 }  // namespace
@@ -181,10 +223,13 @@ std::vector<Subject> subjects_of(const Model& model, const Trajectory& a, const 
   if (!model.simulation.translation)
     subjects.push_back({"attitude_deg", 180.0 / std::numbers::pi, kEpsilon * steps});
   subjects.push_back({"com_position_m", 1.0, kEpsilon * steps * distance});
+  if (std::optional<Subject> joint = worst_joint(model, a, b, steps))
+    subjects.push_back(std::move(*joint));
   return subjects;
 }
 
 ErrorSeries error_of(const Subject& subject, const Trajectory& a, const Trajectory& b) {
+  if (subject.joint) return joint_error(*subject.joint, a, b);
   return subject.metric == "attitude_deg" ? attitude_error(a, b) : position_error(a, b);
 }
 

@@ -18,13 +18,16 @@ namespace twincraft {
 
 /// What is explained.
 struct Subject {
-  std::string metric;     // `attitude_deg`, `com_position_m`
+  std::string metric;     // `attitude_deg`, `com_position_m`, `joint_deg`
   double unit = 1.0;      // the metric's units per SI unit
   double rounding = 0.0;  // SI: one unit in the last place of the quantity per step, all one way
+  std::optional<std::size_t> joint = {};  // entry of the joint vector
+  std::string coordinate = {};            // its name
+  double mujoco_rounding = 0.0;           // SI: mujoco_rounding() of the run, once it is asked
 };
 
 /// The subjects of a vehicle in the order in which they are looked at: attitude, if it has one,
-/// then the system's centre of mass.
+/// then the system's centre of mass, then of all joints the one that is farthest out of rounding.
 std::vector<Subject> subjects_of(const Model& model, const Trajectory& a, const Trajectory& b);
 
 ErrorSeries error_of(const Subject& subject, const Trajectory& a, const Trajectory& b);
@@ -47,8 +50,9 @@ struct AttributedCause {
   double maximum_left = 0.0;  // with this cause and all before it taken away
 };
 
+/// kMujocoRounding: within what MuJoCo's inertias about the vehicle's centre of mass may round to.
 /// kUnknown: the variant without any cause could not be run to its end.
-enum class Remainder { kRounding, kIntegrator, kUnexplained, kUnknown };
+enum class Remainder { kRounding, kIntegrator, kMujocoRounding, kUnexplained, kUnknown };
 
 struct Attribution {
   Subject subject;

@@ -77,6 +77,14 @@ ErrorSeries position_error(const Trajectory& a, const Trajectory& b) {
       b);
 }
 
+ErrorSeries joint_error(std::size_t joint, const Trajectory& a, const Trajectory& b) {
+  return series_of(
+      [joint](const Observation& x, const Observation& y) -> Vector3d {
+        return {y.joint_position[joint] - x.joint_position[joint], 0.0, 0.0};
+      },
+      a, b);
+}
+
 ErrorSeries difference(const ErrorSeries& x, const ErrorSeries& y) {
   ErrorSeries series;
   at_common_times(x, y, [&](std::size_t i, std::size_t j) {

@@ -23,6 +23,9 @@ ErrorSeries attitude_error(const Trajectory& a, const Trajectory& b);
 /// From the system centre of mass of `a` to that of `b` [m], likewise.
 ErrorSeries position_error(const Trajectory& a, const Trajectory& b);
 
+/// Of one entry of the joint vector [rad] or [m], likewise; along x, as it has no direction.
+ErrorSeries joint_error(std::size_t joint, const Trajectory& a, const Trajectory& b);
+
 /// x - y at the times both have.
 ErrorSeries difference(const ErrorSeries& x, const ErrorSeries& y);
 
