@@ -25,7 +25,7 @@ using UnitHandle = std::unique_ptr<ut_unit, decltype([](ut_unit* unit) { ut_free
 using SystemHandle =
     std::unique_ptr<ut_system, decltype([](ut_system* system) { ut_free_system(system); })>;
 
-/// Units whose names people write and UDUNITS does not know.
+/// Units whose names people write and UDUNITS does not know, or knows to seven digits only.
 struct OwnUnit {
   const char* name;
   double factor;
@@ -46,6 +46,15 @@ constexpr OwnUnit kOwnUnits[] = {
     {"mins", 60.0, "s"},
     {"hrs", 3600.0, "s"},
     {"AU", 149597870700.0, "m"},
+    // UDUNITS rounds these, so that a pound-force would not accelerate a slug by 1 ft/s2.
+    {"slug", 1.0, "lbf.s2/ft"},
+    {"slugs", 1.0, "lbf.s2/ft"},
+    {"avoirdupois_ounce", 1.0 / 16.0, "pound"},
+    {"avoirdupois_ounces", 1.0 / 16.0, "pound"},
+    {"short_hundredweight", 100.0, "pound"},
+    {"short_hundredweights", 100.0, "pound"},
+    {"long_hundredweight", 112.0, "pound"},
+    {"long_hundredweights", 112.0, "pound"},
 };
 
 /// For "did you mean"; the database has thousands of names, most of them no help.
@@ -123,6 +132,7 @@ class UnitSystem {
     for (const OwnUnit& own : kOwnUnits) {
       const UnitHandle base = parsed(own.of);
       const UnitHandle unit(ut_scale(own.factor, base.get()));
+      ut_unmap_name_to_unit(system_.get(), own.name, UT_ASCII);  // where it is known, but rounded
       if (ut_map_symbol_to_unit(own.name, UT_ASCII, unit.get()) != UT_SUCCESS) {
         throw std::logic_error(fmt::format("the unit `{}` exists already", own.name));
       }

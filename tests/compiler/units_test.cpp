@@ -97,6 +97,15 @@ TEST(Conversion, RoundsDecimalMultiplesOnce) {
   EXPECT_EQ(value_of("7e-3 km", "m"), 7.0);
 }
 
+// UDUNITS has these to seven digits.
+TEST(Conversion, IsExactForUnitsThatArePoundsBySomeFactor) {
+  EXPECT_DOUBLE_EQ(value_of("1 slug", "kg"), 0.45359237 * 9.80665 / 0.3048);
+  EXPECT_DOUBLE_EQ(value_of("1 slugs ft/s2", "N"), value_of("1 lbf", "N"));
+  EXPECT_DOUBLE_EQ(value_of("2 slug ft2", "kg m2"), value_of("2 lbf ft s2", "kg m2"));
+  EXPECT_DOUBLE_EQ(value_of("1 avoirdupois_ounce", "kg"), 0.028349523125);
+  EXPECT_DOUBLE_EQ(value_of("1 short_hundredweight", "kg"), 45.359237);
+}
+
 TEST(Conversion, IsWithinOneUlpForOtherUnits) {
   const auto one_ulp = [](double x) { return std::nextafter(x, 2.0 * x) - x; };
   const double angle = 12.0 * (pi / 180.0);
