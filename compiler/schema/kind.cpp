@@ -136,6 +136,18 @@ bool check_range(double value, Range range, const Node& node, ReadContext& conte
   return false;
 }
 
+bool check_magnitude(double value, Range range, const Node& node, ReadContext& context) {
+  const bool is_too_small = range == Range::kPositive && value < kLeastMagnitude;
+  if (!is_too_small && std::abs(value) <= kLargestMagnitude) return true;
+  context.diagnostics
+      .error(Code::kOutOfRange, node.span,
+             fmt::format("{} is {}, but must be {} {:g} in SI units", context.where, describe(node),
+                         is_too_small ? "at least" : "at most",
+                         is_too_small ? kLeastMagnitude : kLargestMagnitude))
+      .with_hint("products of ten such numbers would leave the range of doubles; check the unit");
+  return false;
+}
+
 std::optional<double> read_number(const Node& node, ReadContext& context) {
   const std::string* text = scalar_text(node, context, "a number", "write for example `0.5`");
   if (text == nullptr) return std::nullopt;

@@ -59,6 +59,14 @@ const TableInfo& listing_table() {
 
 using ReadEntry = std::function<std::optional<double>(const Node&, ReadContext&)>;
 
+/// A component: of any sign, and as small as may be.
+std::optional<double> read_component(const Node& node, SiUnit si, std::string_view unit,
+                                     ReadContext& context) {
+  const std::optional<double> value = read_quantity(node, si, unit, context);
+  if (!value || !check_magnitude(*value, Range::kAny, node, context)) return std::nullopt;
+  return value;
+}
+
 std::optional<Vector3d> read_three(const Node& list, ReadContext& context,
                                    const std::string& expected, const ReadEntry& read_entry) {
   if (!check_list(list, context, 3, 3, expected)) return std::nullopt;
@@ -132,7 +140,7 @@ std::optional<Matrix3d> read_inertia(const Node& node, ReadContext& context) {
   const std::optional<Listing> listing = read_listing(node, si, context);
   if (!listing) return std::nullopt;
   const ReadEntry read_entry = [si, &listing](const Node& entry, ReadContext& at_entry) {
-    return read_quantity(entry, si, listing->unit, at_entry);
+    return read_component(entry, si, listing->unit, at_entry);
   };
   const Node& list = *listing->list;
   const bool has_rows = std::any_of(list.items.begin(), list.items.end(),
@@ -221,6 +229,7 @@ Kind<double> quantity(SiUnit si, Range range) {
                                               ReadContext& context) -> std::optional<double> {
         const std::optional<double> value = read_quantity(node, unit, {}, context);
         if (!value || !check_range(*value, range, node, context)) return std::nullopt;
+        if (!check_magnitude(*value, range, node, context)) return std::nullopt;
         return value;
       },
       .write = [](const double& value) -> Json { return value; },
@@ -236,7 +245,7 @@ Kind<Vector3d> vector3(SiUnit si) {
         const std::optional<Listing> listing = read_listing(node, unit, context);
         if (!listing) return std::nullopt;
         const ReadEntry read_entry = [&](const Node& entry, ReadContext& at_entry) {
-          return read_quantity(entry, unit, listing->unit, at_entry);
+          return read_component(entry, unit, listing->unit, at_entry);
         };
         return read_three(*listing->list, context, fmt::format("three quantities [{}]", unit),
                           read_entry);

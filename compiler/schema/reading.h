@@ -57,6 +57,15 @@ Json number_schema(Range range);
 /// Whether `value`, written as `node`, lies in `range`; if not, that is reported.
 bool check_range(double value, Range range, const Node& node, ReadContext& context);
 
+/// The least magnitude of a quantity that must be positive, and the largest of any, in SI units.
+/// The engines form products of up to ten of them, such as m^2 r^4 Omega^4, and a double holds
+/// 1e-308 to 1e308.
+inline constexpr double kLeastMagnitude = 1.0e-30;
+inline constexpr double kLargestMagnitude = 1.0e30;
+
+/// Whether the engines can compute with `value` [SI], written as `node`; if not, that is reported.
+bool check_magnitude(double value, Range range, const Node& node, ReadContext& context);
+
 /// A plain number, or a quantity in `si`. With a `unit` the node is a plain number in that unit.
 std::optional<double> read_number(const Node& node, ReadContext& context);
 std::optional<double> read_quantity(const Node& node, SiUnit si, std::string_view unit,

@@ -18,6 +18,7 @@ struct Values {
 std::optional<double> read_value(const Node& node, const Values& values, ReadContext& context) {
   const std::optional<double> value = read_quantity(node, values.si, values.unit, context);
   if (!value || !check_range(*value, values.range, node, context)) return std::nullopt;
+  if (!check_magnitude(*value, values.range, node, context)) return std::nullopt;
   return value;
 }
 
