@@ -71,7 +71,8 @@ Fault fault_of(const CLI::App& app, const CLI::ParseError& error) {
   } catch (...) {
     text = "internal error: an exception nobody expected, please report it\n";
   }
-  write_standard_error(text);
+  // Not write_standard_error, which allocates; this text is ours.
+  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text.data(), text.size());
   ::_exit(kExitFailure);
 }
 
@@ -152,13 +153,6 @@ int run_program(std::string_view program, const std::function<int()>& body) {
                     program, printable(error.what()), program));
   }
   return kExitFailure;
-}
-
-bool wants_colour(int file_descriptor) {
-  const char* no_colour = std::getenv("NO_COLOR");
-  const char* terminal = std::getenv("TERM");
-  return ::isatty(file_descriptor) != 0 && (no_colour == nullptr || *no_colour == '\0') &&
-         terminal != nullptr && std::string_view(terminal) != "dumb";
 }
 
 }  // namespace twincraft

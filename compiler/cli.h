@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "compiler/diag/diagnostics.h"
+#include "compiler/diag/terminal.h"
 
 namespace twincraft {
 
@@ -35,8 +36,5 @@ void judge_warnings(const std::vector<std::string>& words, Diagnostics& diagnost
 /// Runs a program's body, and says on standard error what ended it early.
 /// @return the exit code: that of `body`, or kExitFailure after an exception
 int run_program(std::string_view program, const std::function<int()>& body);
-
-/// `file` is a terminal that wants colour: NO_COLOR is respected, and TERM=dumb.
-bool wants_colour(int file_descriptor);
 
 }  // namespace twincraft

@@ -113,8 +113,9 @@ std::optional<int> refuse_bad_values(Options& options) {
   return std::nullopt;
 }
 
-int print(const std::string& text) {
-  const std::string error = write_standard_output(text);
+/// A document, for programs: its bytes reach them as they are.
+int print(const std::string& document) {
+  const std::string error = write_document(document);
   if (error.empty()) return kExitDone;
   complain(error);
   return kExitInputOutput;

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "compiler/diag/diagnostics.h"
+#include "compiler/diag/terminal.h"
 
 namespace twincraft {
 namespace {
@@ -39,6 +40,12 @@ int write_all(int descriptor, std::string_view text) {
     if (written > 0) text.remove_prefix(static_cast<std::size_t>(written));
   }
   return 0;
+}
+
+/// To standard output. @return empty, or what went wrong
+std::string write_bytes(std::string_view bytes) {
+  const int error = write_all(STDOUT_FILENO, bytes);
+  return error == 0 ? std::string() : fault(std::string("standard output"), error);
 }
 
 /// A file under a temporary name; removed again unless it was published.
@@ -127,11 +134,16 @@ std::string try_files(const std::vector<std::string>& paths) {
 }
 
 std::string write_standard_output(std::string_view text) {
-  const int error = write_all(STDOUT_FILENO, text);
-  return error == 0 ? std::string() : fault(std::string("standard output"), error);
+  return write_bytes(for_terminal(text, wants_colour(STDOUT_FILENO)));
 }
 
-void write_standard_error(std::string_view text) { write_all(STDERR_FILENO, text); }
+std::string write_document(std::string_view bytes) {
+  return ::isatty(STDOUT_FILENO) != 0 ? write_standard_output(bytes) : write_bytes(bytes);
+}
+
+void write_standard_error(std::string_view text) {
+  write_all(STDERR_FILENO, for_terminal(text, wants_colour(STDERR_FILENO)));
+}
 
 void survive_failed_writes() {
   std::signal(SIGPIPE, SIG_IGN);

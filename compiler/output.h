@@ -23,10 +23,16 @@ std::string write_files(const std::vector<OutputFile>& files);
 /// that do not exist are made. @return as write_files
 std::string try_files(const std::vector<std::string>& paths);
 
+/// Text for people, by way of `for_terminal`.
 /// @return empty, or what went wrong (a closed pipe included, when SIGPIPE is ignored)
 std::string write_standard_output(std::string_view text);
 
-/// As much of it as the system takes: there is nobody left to tell of a failure.
+/// The bytes of a result, such as `NAME.xml` of `-o -`; on a terminal they are text for people.
+/// @return as write_standard_output
+std::string write_document(std::string_view bytes);
+
+/// Text for people, by way of `for_terminal`; as much of it as the system takes: there is nobody
+/// left to tell of a failure.
 void write_standard_error(std::string_view text);
 
 /// From now on a closed pipe and a file beyond the size limit are errors of write(), with a

@@ -162,10 +162,10 @@ std::string printable(std::string_view text) {
 
 std::string in_backticks(std::string_view text) {
   constexpr std::size_t kLongest = 60;  // bytes; about half a line of a terminal
-  if (text.size() <= kLongest) return fmt::format("`{}`", text);
+  if (text.size() <= kLongest) return fmt::format("`{}`", printable(text));
   std::size_t end = 0;
   while (end < kLongest) end += std::max<std::size_t>(1, decode_utf8(text, end).length);
-  return fmt::format("`{}...`", text.substr(0, end));
+  return fmt::format("`{}...`", printable(text.substr(0, end)));
 }
 
 }  // namespace twincraft

@@ -101,7 +101,7 @@ std::string nearest(std::string_view word, const std::vector<std::string>& candi
 /// safe on a terminal.
 std::string printable(std::string_view text);
 
-/// The user's text in backticks for a message, cut when it is long.
+/// The user's text in backticks for a message, printable, and cut when it is long.
 std::string in_backticks(std::string_view text);
 
 }  // namespace twincraft

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "compiler/diag/print.h"
+#include "compiler/diag/terminal.h"
 
 namespace twincraft {
 namespace {
@@ -14,7 +15,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 std::string dumped(const Json& json) {
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json_for_terminal(json.dump(2, ' ', false, Json::error_handler_t::replace)) + "\n";
 }
 
 Json placed(const Span& span) {

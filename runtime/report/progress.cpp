@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "compiler/diag/terminal.h"
 #include "runtime/report/words.h"
 
 namespace twincraft {
@@ -54,7 +55,7 @@ void ProgressBar::show(std::string_view phase, double fraction) {
 
 void ProgressBar::leave(std::string_view line) {
   clear();
-  write(fmt::format("{}\n", line));
+  write(for_terminal(fmt::format("{}\n", line), false));
 }
 
 void ProgressBar::clear() {

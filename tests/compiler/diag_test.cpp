@@ -6,6 +6,7 @@
 #include <set>
 
 #include "compiler/diag/print.h"
+#include "compiler/diag/terminal.h"
 #include "compiler/diag/utf8.h"
 
 namespace twincraft {
@@ -253,6 +254,32 @@ TEST(InBackticks, CutsLongTextBetweenCharacters) {
   const std::string shown = in_backticks(text);
   EXPECT_LT(shown.size(), 70u);
   EXPECT_EQ(printable(shown), shown);
+}
+
+TEST(InBackticks, ShowsWhatWouldDriveATerminal) {
+  EXPECT_EQ(in_backticks("a\x1b[31mb\xc2\x9b\x9b"), "`a\\x1b[31mb\\u009b\\x9b`");
+}
+
+TEST(ForTerminal, LeavesLinesAndEscapesTheRest) {
+  EXPECT_EQ(for_terminal("one\n\ttwo \xE2\x82\xAC\n", false), "one\n\ttwo \xE2\x82\xAC\n");
+  EXPECT_EQ(for_terminal("a\r\x1b[31mb\x7f\xc2\x9b\xe2\x80\xae\x9b", false),
+            "a\\r\\x1b[31mb\\x7f\\u009b\\u202e\\x9b");
+  EXPECT_EQ(for_terminal(std::string("a\0b", 3), true), "a\\x00b");
+}
+
+TEST(ForTerminal, LetsColoursPassAndNoOtherSequence) {
+  EXPECT_EQ(for_terminal("\x1b[1;31merror\x1b[0m", true), "\x1b[1;31merror\x1b[0m");
+  EXPECT_EQ(for_terminal("\x1b[38;2;255;255;255mx", true), "\x1b[38;2;255;255;255mx");
+  for (const std::string text : {"\x1b[2J", "\x1b[", "\x1b[31", "\x1b]0;x\x07", "\x1bm", "\x1b"})
+    EXPECT_EQ(for_terminal(text, true), printable(text)) << printable(text);
+  EXPECT_EQ(for_terminal("\x1b[" + std::string(100, '1') + "m", true).substr(0, 4), "\\x1b");
+}
+
+TEST(JsonForTerminal, KeepsTheMeaningOfTheDocument) {
+  const nlohmann::json document = {{"a\x1b\xc2\x9b", "\x7f\xe2\x80\xae \xE2\x82\xAC\n\r"}};
+  const std::string safe = json_for_terminal(document.dump(2));
+  EXPECT_EQ(for_terminal(safe, false), safe);
+  EXPECT_EQ(nlohmann::json::parse(safe), document);
 }
 
 }  // namespace
