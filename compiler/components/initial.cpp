@@ -1,6 +1,7 @@
 // See initial.h. Tested by tests/compiler/initial_test.cpp.
 #include "compiler/components/initial.h"
 
+#include "compiler/components/kilometres.h"
 #include "compiler/ir/configuration.h"
 
 namespace twincraft {
@@ -72,6 +73,8 @@ void check(const InitialSpec& initial, const EnvironmentSpec& environment,
   }
   if (initial.orbit) check(*initial.orbit, diagnostics);
   if (!deep_space) check_place(initial, *environment.gravity, diagnostics);
+  if (!deep_space && diagnostics.error_count() == errors_before)
+    warn_of_kilometres(initial, *environment.gravity, diagnostics);
   // Directions of an orbit that is itself at fault would only repeat the fault.
   if (!initial.attitude || diagnostics.error_count() != errors_before) return;
   const PointState point = start(initial, environment);

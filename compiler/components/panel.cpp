@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "compiler/components/physical.h"
+#include "compiler/ir/number.h"
 
 namespace twincraft {
 namespace {
@@ -118,10 +119,24 @@ void check_shape(const ShapeSpec& shape, const std::string& who, Diagnostics& di
   }
 }
 
+/// A plate thicker than it is wide and long is one in millimetres.
+void warn_of_millimetres(const PanelSpec& panel, const ShapeSpec& shape, const std::string& who,
+                         Diagnostics& diagnostics) {
+  const double extent = std::max(shape.width.value_or(0.0), segment_length(panel));
+  if (!shape.thickness || !(*shape.thickness > extent)) return;
+  const Node& thickness = *shape.node->find("thickness");
+  if (!is_bare_number(thickness)) return;
+  warn_of_bare_number(
+      thickness,
+      fmt::format("{} m is more than the plate's length and width", shortest(*shape.thickness)),
+      "mm", "m", {diagnostics, "`thickness` of " + who});
+}
+
 void check_inertia_of(const PanelSpec& panel, const std::string& who, Diagnostics& diagnostics) {
   const std::size_t errors_before = diagnostics.error_count();
   if (const ShapeSpec* shape = std::get_if<ShapeSpec>(&panel.inertia)) {
     check_shape(*shape, who, diagnostics);
+    warn_of_millimetres(panel, *shape, who, diagnostics);
   }
   if (diagnostics.error_count() != errors_before) return;
   check_inertia(segment_inertia(panel), panel.span_of("inertia"), "a segment of " + who,
@@ -175,7 +190,7 @@ Look segment_look(const PanelSpec& panel) {
 
 const Table<PanelSpec>& panel_table() {
   const auto each = [](SiUnit unit, Range range = Range::kAny) {
-    return one_or_list(quantity(unit, range));
+    return one_or_more_quantities(unit, range);
   };
   static const Table<PanelSpec> table{
       "panel",

@@ -18,7 +18,7 @@ constexpr double kPerpendicularTolerance = 1.0e-9;
 // Least |cos theta| at the start.
 constexpr double kLeastCosine = 1.0e-3;
 
-Kind<std::vector<double>> two(SiUnit unit) { return list_of(quantity(unit), 2, 2); }
+Kind<std::vector<double>> two(SiUnit unit) { return quantities(unit, 2); }
 
 /// p1, p2, p3 in mount axes. `rest` is kept; `reference` is made exactly perpendicular to it.
 Matrix3d pivot_axes(const PendulumSpec& pendulum) {

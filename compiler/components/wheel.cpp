@@ -35,7 +35,7 @@ const Table<WheelSpec>& wheel_table() {
               "Mass of the wheel. With 0 (default) the mount's mass already includes the wheel "
               "and `position` plays no part. A positive mass acts at `position` in both "
               "engines, and gravity pulls on it there."),
-          optional("speed", &WheelSpec::speed, quantity("rad/s"),
+          optional("speed", &WheelSpec::speed, quantity("rad/s", Range::kAny, kUsualWheelSpeed),
                    "Initial spin relative to the mount."),
           optional("torque", &WheelSpec::torque, schedule("N m"),
                    "Of the motor on the wheel about its axis; the mount feels the opposite."),

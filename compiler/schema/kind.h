@@ -16,6 +16,7 @@
 
 #include "compiler/ir/mass.h"
 #include "compiler/ir/schedule.h"
+#include "compiler/schema/bare_numbers.h"
 #include "compiler/schema/reading.h"
 
 namespace twincraft {
@@ -32,6 +33,12 @@ struct Kind {
 };
 
 Kind<double> quantity(SiUnit si, Range range = Range::kAny);
+/// The same for a key whose plain numbers end elsewhere to be likely.
+Kind<double> quantity(SiUnit si, Range range, const Usual& usual);
+/// A quantity or a list of them; a single one becomes a list of one.
+Kind<std::vector<double>> one_or_more_quantities(SiUnit si, Range range = Range::kAny);
+/// A list of exactly `count` quantities.
+Kind<std::vector<double>> quantities(SiUnit si, std::size_t count);
 Kind<double> number(Range range = Range::kAny);
 Kind<int> integer(int minimum, int maximum);
 Kind<bool> boolean();

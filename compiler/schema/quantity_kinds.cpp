@@ -156,6 +156,34 @@ std::optional<Matrix3d> read_inertia(const Node& node, ReadContext& context) {
   return symmetric(*tensor, list, context);
 }
 
+/// A quantity of which nobody has asked yet whether it is usual.
+Kind<double> unjudged_quantity(SiUnit si, Range range) {
+  return {
+      .text = fmt::format("quantity [{}]{}", si, range_text(range)),
+      .schema = quantity_schema(std::string(si), range),
+      .read = [unit = std::string(si), range](const Node& node,
+                                              ReadContext& context) -> std::optional<double> {
+        const std::optional<double> value = read_quantity(node, unit, {}, context);
+        if (!value || !check_range(*value, range, node, context)) return std::nullopt;
+        if (!check_magnitude(*value, range, node, context)) return std::nullopt;
+        return value;
+      },
+      .write = [](const double& value) -> Json { return value; },
+  };
+}
+
+/// `kind`, whose values have their plain numbers judged together.
+template <class V>
+Kind<V> judged(Kind<V> kind, SiUnit si, const Usual& usual) {
+  kind.read = [read = std::move(kind.read), unit = std::string(si), usual](
+                  const Node& node, ReadContext& context) -> std::optional<V> {
+    std::optional<V> value = read(node, context);
+    if (value) judge_bare_numbers(scalars_of(node), unit, usual, context);
+    return value;
+  };
+  return kind;
+}
+
 Json write_vector(const Vector3d& vector) {
   return Json::array({vector.x(), vector.y(), vector.z()});
 }
@@ -221,24 +249,23 @@ Json listing_schema(const Json& list, SiUnit si) {
   return any_of(list, map);
 }
 
-Kind<double> quantity(SiUnit si, Range range) {
-  return {
-      .text = fmt::format("quantity [{}]{}", si, range_text(range)),
-      .schema = quantity_schema(std::string(si), range),
-      .read = [unit = std::string(si), range](const Node& node,
-                                              ReadContext& context) -> std::optional<double> {
-        const std::optional<double> value = read_quantity(node, unit, {}, context);
-        if (!value || !check_range(*value, range, node, context)) return std::nullopt;
-        if (!check_magnitude(*value, range, node, context)) return std::nullopt;
-        return value;
-      },
-      .write = [](const double& value) -> Json { return value; },
-  };
+Kind<double> quantity(SiUnit si, Range range) { return quantity(si, range, usual_of(si)); }
+
+Kind<double> quantity(SiUnit si, Range range, const Usual& usual) {
+  return judged(unjudged_quantity(si, range), si, usual);
+}
+
+Kind<std::vector<double>> one_or_more_quantities(SiUnit si, Range range) {
+  return judged(one_or_list(unjudged_quantity(si, range)), si, usual_of(si));
+}
+
+Kind<std::vector<double>> quantities(SiUnit si, std::size_t count) {
+  return judged(list_of(unjudged_quantity(si, Range::kAny), count, count), si, usual_of(si));
 }
 
 Kind<Vector3d> vector3(SiUnit si) {
   const std::string unit(si);
-  return {
+  Kind<Vector3d> kind{
       .text = fmt::format("three quantities [{}]", si),
       .schema = listing_schema(list_schema(quantity_schema(unit, Range::kAny), 3, 3), si),
       .read = [unit](const Node& node, ReadContext& context) -> std::optional<Vector3d> {
@@ -252,6 +279,7 @@ Kind<Vector3d> vector3(SiUnit si) {
       },
       .write = write_vector,
   };
+  return judged(std::move(kind), si, usual_of(si));  // of `{value: .., unit: ..}` nothing is bare
 }
 
 Kind<Vector3d> direction() {
@@ -265,12 +293,13 @@ Kind<Vector3d> direction() {
 
 Kind<Matrix3d> inertia() {
   const Json row = list_schema(quantity_schema("kg m2", Range::kAny), 3, 3);
-  return {
+  Kind<Matrix3d> kind{
       .text = "[Ixx, Iyy, Izz] or symmetric 3x3 [kg m2]",
       .schema = listing_schema(any_of(row, list_schema(row, 3, 3)), "kg m2"),
       .read = read_inertia,
       .write = write_inertia,
   };
+  return judged(std::move(kind), "kg m2", {});
 }
 
 Kind<Matrix3d> matrix3() {

@@ -73,6 +73,26 @@ Json write_schedule(const Schedule& schedule) {
   for (const Schedule::Entry& entry : schedule.entries)
     points.push_back(Json::array({entry.time, entry.value}));
   return points;
+/// Entry `which` of every point of the schedule: 0 for times, 1 for values.
+void collect(const Node& schedule, std::size_t which, std::vector<const Node*>& entries) {
+  if (schedule.is_scalar() && which == 1) entries.push_back(&schedule);
+  if (!schedule.is_list()) return;
+  for (const Node& point : schedule.items)
+    if (point.is_list() && point.items.size() == 2) entries.push_back(&point.items[which]);
+}
+
+/// Times together and values together. @pre they have been read without a fault
+void judge(const std::vector<const Node*>& schedules, const Values& values,
+           const ReadContext& context) {
+  std::vector<const Node*> all_times, all_values;
+  for (const Node* schedule : schedules) {
+    collect(*schedule, 0, all_times);
+    collect(*schedule, 1, all_values);
+  }
+  judge_bare_numbers(all_times, "s", {}, context);
+  if (values.unit.empty()) judge_bare_numbers(all_values, values.si, usual_of(values.si), context);
+}
+
 }
 
 std::optional<std::array<Schedule, 3>> read_schedule3(const Node& node, const std::string& si,
@@ -103,6 +123,8 @@ std::optional<Schedule::Interval> read_interval(const Node& node, ReadContext& c
   if (!start || !end) return std::nullopt;
   if (*start < *end) return Schedule::Interval{*start, *end};
   context.diagnostics.error(
+  judge({&list.items[0], &list.items[1], &list.items[2]}, {si, listing->unit, Range::kAny},
+        context);
       Code::kBadInterval, node.items[1].span,
       fmt::format("{} ends at {} s, not after its start at {} s", context.where, *end, *start));
   return std::nullopt;
@@ -143,6 +165,7 @@ Json write_intervals(const std::vector<Schedule::Interval>& intervals) {
 Json pair_list_schema(const Json& first, const Json& second) {
   const Json pair = {
       {"type", "array"}, {"items", Json::array({first, second})}, {"minItems", 2}, {"maxItems", 2}};
+  judge_bare_numbers(scalars_of(node), "s", {}, context);
   return list_schema(pair, 1, kAnyCount);
 }
 
@@ -154,8 +177,11 @@ Kind<Schedule> schedule(SiUnit si, Range range) {
       .text = fmt::format("quantity [{}]{} or schedule", si, range_text(range)),
       .schema = any_of(value, pair_list_schema(quantity("s").schema, value)),
       .read = [values = Values{std::string(si), {}, range}](
-                  const Node& node,
-                  ReadContext& context) { return read_schedule(node, values, context); },
+                  const Node& node, ReadContext& context) -> std::optional<Schedule> {
+        std::optional<Schedule> schedule = read_schedule(node, values, context);
+        if (schedule) judge({&node}, values, context);
+        return schedule;
+      },
       .write = write_schedule,
   };
 }

@@ -20,7 +20,7 @@ namespace {
 constexpr std::string_view kOutOfRange = "is outside the range of numbers, about 1e-308 to 1e308";
 
 Quantity failure(std::string error, std::string hint = {}) {
-  return {0.0, std::move(error), std::move(hint)};
+  return {0.0, std::move(error), std::move(hint), {}, 1.0};
 }
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
@@ -202,7 +202,7 @@ Quantity factor_between(std::string_view text, std::string_view unit_text, SiUni
   const Unit unit = find_unit(unit_text);
   if (!unit.error.empty()) return failure(unit.error, unit.hint);
   if (!fits(unit.dimension, expected.dimension)) return wrong_dimension(text, unit.dimension, si);
-  return {unit.factor / expected.factor, {}, {}};
+  return {unit.factor / expected.factor, {}, {}, {}, 1.0};
 }
 
 }  // namespace
@@ -212,15 +212,17 @@ Quantity parse_quantity(std::string_view text, SiUnit si) {
   const std::optional<NumberText> number = split_number(text);
   if (!number) return explain_no_number(text);
   if (const auto fault = explain_bad_number(text, *number)) return *fault;
-  double factor = 1.0;
-  if (const std::string_view unit = trimmed(number->rest); !unit.empty()) {
-    Quantity found = factor_between(text, unit, si);
+  Quantity quantity;
+  quantity.unit = trimmed(number->rest);
+  if (!quantity.unit.empty()) {
+    Quantity found = factor_between(text, quantity.unit, si);
     if (!found.error.empty()) return found;
-    factor = found.value;
+    quantity.factor = found.value;
   }
-  const std::optional<double> value = converted(*number, factor);
+  const std::optional<double> value = converted(*number, quantity.factor);
   if (!value) return failure(fmt::format("{} {}", in_backticks(text), kOutOfRange));
-  return {*value, {}, {}};
+  quantity.value = *value;
+  return quantity;
 }
 
 Quantity parse_number(std::string_view text) {

@@ -17,6 +17,8 @@ struct Quantity {
   double value = 0.0;  // in the SI unit asked for; never negative zero
   std::string error;   // empty: fine
   std::string hint;
+  std::string unit = {};  // as written; empty: a plain number
+  double factor = 1.0;    // of that unit to the SI unit
 };
 
 /// A plain number (already SI) or a number and a unit of the same dimension as `si`. Angles are a
