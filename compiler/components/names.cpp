@@ -41,8 +41,8 @@ void check_mount(const std::string& mount, Span span, const std::string& who, co
   const std::string what = names.what(mount);
   if (mount == "hub" || what == "body") return;
   std::vector<std::string> mounts = names.all("body");
-  const std::string advice =
-      mounts.empty() ? "mount it on `hub`" : "mount it on `hub` or on a body";
+  std::string advice = mounts.empty() ? "mount it on `hub`" : "mount it on `hub` or on a body";
+  if (what == "panel") advice += "; a chain that carries things is made of `bodies`";
   if (!what.empty()) {
     diagnostics
         .error(Code::kMountNotAllowed, span,

@@ -15,6 +15,10 @@ constexpr std::string_view kNamePattern = "^[A-Za-z][A-Za-z0-9_-]*$";
 constexpr std::array<std::string_view, 3> kReservedWords{"hub", "world", "com"};
 constexpr std::string_view kNameRule = "a name is a letter, then letters, digits, `_` and `-`";
 
+constexpr std::string_view kBodyName = "a body name";
+constexpr std::string_view kSegmentRule =
+    "segments of panels carry nothing: make the chain of `bodies` and mount it on one of them";
+
 // Not std::isalpha and its kin: those follow the locale.
 bool is_letter(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); }
 
@@ -25,6 +29,15 @@ bool is_name_character(char c) {
 bool has_name_form(const std::string& text) {
   return !text.empty() && is_letter(text.front()) &&
          std::all_of(text.begin(), text.end(), is_name_character);
+}
+
+/// `wing.3`, as coordinates and columns call the segments of panels.
+bool is_segment(const std::string& text) {
+  const std::size_t dot = text.find('.');
+  if (dot == std::string::npos || dot + 1 == text.size()) return false;
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  return has_name_form(text.substr(0, dot)) &&
+         std::all_of(text.begin() + static_cast<std::ptrdiff_t>(dot) + 1, text.end(), is_digit);
 }
 
 bool is_reserved(const std::string& text) {
@@ -48,7 +61,8 @@ std::optional<std::string> read_name_form(const Node& node, ReadContext& context
                text->empty()
                    ? context.where + " is empty"
                    : fmt::format("{} is {}, not {}", context.where, describe(node), expected))
-        .with_hint(std::string(kNameRule));
+        .with_hint(expected == kBodyName && is_segment(*text) ? std::string(kSegmentRule)
+                                                              : std::string(kNameRule));
     return std::nullopt;
   }
   return *text;

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "compiler/schema/synonyms.h"
+
 namespace twincraft {
 namespace {
 
@@ -36,11 +38,11 @@ const std::string* scalar_text(const Node& node, ReadContext& context, const std
 }
 
 bool check_list(const Node& node, ReadContext& context, std::size_t minimum, std::size_t maximum,
-                const std::string& expected) {
+                const std::string& expected, const std::string& form) {
   if (!node.is_list()) {
-    report_wrong_type(
-        node, context, expected,
-        node.is_map() ? "begin every item with `- `" : "lists are written `[.., ..]`");
+    const std::string of_maps = form.empty() ? "begin every item with `- `" : form;
+    report_wrong_type(node, context, expected,
+                      node.is_map() ? of_maps : "lists are written `[.., ..]`");
     return false;
   }
   const std::size_t count = node.items.size();
@@ -66,11 +68,10 @@ std::optional<std::size_t> read_word(const Node& node, ReadContext& context,
   if (text == nullptr) return std::nullopt;
   for (std::size_t i = 0; i < words.size(); ++i)
     if (words[i] == *text) return i;
-  const std::string likely = nearest(*text, words);
   context.diagnostics
       .error(Code::kUnknownWord, node.span,
              fmt::format("{} is {}, not {}", context.where, describe(node), choices))
-      .with_hint(likely.empty() ? std::string() : fmt::format("did you mean `{}`?", likely));
+      .with_hint(hint_for_word(*text, words));
   return std::nullopt;
 }
 

@@ -42,8 +42,9 @@ const std::string* scalar_text(const Node& node, ReadContext& context, const std
                                const std::string& hint);
 
 /// Whether `node` is a list of an allowed length; if not, that is reported.
+/// @param form  how to write one instead of a map; empty: as a list of maps
 bool check_list(const Node& node, ReadContext& context, std::size_t minimum, std::size_t maximum,
-                const std::string& expected);
+                const std::string& expected, const std::string& form = {});
 
 /// The context of a part: "`axis` of wheel `x`" and "item 2" give "item 2 of `axis` of wheel `x`".
 ReadContext part_of(const ReadContext& whole, std::string_view part);

@@ -22,10 +22,16 @@ std::optional<double> read_value(const Node& node, const Values& values, ReadCon
   return value;
 }
 
+/// How to write a schedule of values in `si`.
+std::string schedule_form(const std::string& si) {
+  return fmt::format("write points in order of time: `[[0 s, 1 {}], [40 s, 0]]`", si);
+}
+
 /// One `[time, value]`.
 std::optional<Schedule::Entry> read_point(const Node& node, const Values& values,
                                           ReadContext& context) {
-  if (!check_list(node, context, 2, 2, "a point `[time, value]`")) return std::nullopt;
+  if (!check_list(node, context, 2, 2, "a point `[time, value]`", schedule_form(values.si)))
+    return std::nullopt;
   ReadContext at_time = part_of(context, "time");
   ReadContext at_value = part_of(context, "value");
   const std::optional<double> time = read_quantity(node.items[0], "s", {}, at_time);
@@ -35,7 +41,8 @@ std::optional<Schedule::Entry> read_point(const Node& node, const Values& values
 }
 
 std::optional<Schedule> read_points(const Node& node, const Values& values, ReadContext& context) {
-  if (!check_list(node, context, 1, kAnyCount, "a quantity or points `[[time, value], ..]`"))
+  if (!check_list(node, context, 1, kAnyCount, "a quantity or points `[[time, value], ..]`",
+                  schedule_form(values.si)))
     return std::nullopt;
   Schedule schedule;
   bool complete = true;
@@ -66,13 +73,6 @@ std::optional<Schedule> read_schedule(const Node& node, const Values& values,
   return Schedule::constant(*value);
 }
 
-Json write_schedule(const Schedule& schedule) {
-  if (schedule.entries.empty()) return 0.0;
-  if (std::isinf(schedule.entries.front().time)) return schedule.entries.front().value;
-  Json points = Json::array();
-  for (const Schedule::Entry& entry : schedule.entries)
-    points.push_back(Json::array({entry.time, entry.value}));
-  return points;
 /// Entry `which` of every point of the schedule: 0 for times, 1 for values.
 void collect(const Node& schedule, std::size_t which, std::vector<const Node*>& entries) {
   if (schedule.is_scalar() && which == 1) entries.push_back(&schedule);
@@ -93,10 +93,22 @@ void judge(const std::vector<const Node*>& schedules, const Values& values,
   if (values.unit.empty()) judge_bare_numbers(all_values, values.si, usual_of(values.si), context);
 }
 
+Json write_schedule(const Schedule& schedule) {
+  if (schedule.entries.empty()) return 0.0;
+  if (std::isinf(schedule.entries.front().time)) return schedule.entries.front().value;
+  Json points = Json::array();
+  for (const Schedule::Entry& entry : schedule.entries)
+    points.push_back(Json::array({entry.time, entry.value}));
+  return points;
 }
 
 std::optional<std::array<Schedule, 3>> read_schedule3(const Node& node, const std::string& si,
                                                       ReadContext& context) {
+  if (node.is_map() && node.find("value") == nullptr && node.find("unit") == nullptr) {
+    report_wrong_type(node, context, "three components, each a quantity or a schedule",
+                      fmt::format("write for example `[0, [[0 s, 1 {}], [40 s, 0]], 0]`", si));
+    return std::nullopt;
+  }
   const std::optional<Listing> listing = read_listing(node, si, context);
   if (!listing) return std::nullopt;
   const Node& list = *listing->list;
@@ -111,6 +123,8 @@ std::optional<std::array<Schedule, 3>> read_schedule3(const Node& node, const st
     complete = complete && component;
   }
   if (!complete) return std::nullopt;
+  judge({&list.items[0], &list.items[1], &list.items[2]}, {si, listing->unit, Range::kAny},
+        context);
   return components;
 }
 
@@ -123,8 +137,6 @@ std::optional<Schedule::Interval> read_interval(const Node& node, ReadContext& c
   if (!start || !end) return std::nullopt;
   if (*start < *end) return Schedule::Interval{*start, *end};
   context.diagnostics.error(
-  judge({&list.items[0], &list.items[1], &list.items[2]}, {si, listing->unit, Range::kAny},
-        context);
       Code::kBadInterval, node.items[1].span,
       fmt::format("{} ends at {} s, not after its start at {} s", context.where, *end, *start));
   return std::nullopt;
@@ -132,7 +144,8 @@ std::optional<Schedule::Interval> read_interval(const Node& node, ReadContext& c
 
 std::optional<std::vector<Schedule::Interval>> read_intervals(const Node& node,
                                                               ReadContext& context) {
-  if (!check_list(node, context, 1, kAnyCount, "a list of intervals `[[start, end], ..]`"))
+  if (!check_list(node, context, 1, kAnyCount, "a list of intervals `[[start, end], ..]`",
+                  "write for example `[[0 s, 10 s], [60 s, 70 s]]`"))
     return std::nullopt;
   std::vector<Schedule::Interval> intervals;
   bool complete = true;
@@ -152,6 +165,7 @@ std::optional<std::vector<Schedule::Interval>> read_intervals(const Node& node,
     intervals.push_back(*interval);
   }
   if (!complete) return std::nullopt;
+  judge_bare_numbers(scalars_of(node), "s", {}, context);
   return intervals;
 }
 
@@ -165,7 +179,6 @@ Json write_intervals(const std::vector<Schedule::Interval>& intervals) {
 Json pair_list_schema(const Json& first, const Json& second) {
   const Json pair = {
       {"type", "array"}, {"items", Json::array({first, second})}, {"minItems", 2}, {"maxItems", 2}};
-  judge_bare_numbers(scalars_of(node), "s", {}, context);
   return list_schema(pair, 1, kAnyCount);
 }
 

@@ -8,6 +8,8 @@
 #include <cctype>
 #include <stdexcept>
 
+#include "compiler/schema/synonyms.h"
+
 namespace twincraft {
 namespace {
 
@@ -23,6 +25,15 @@ std::vector<std::string> known_keys(const TableInfo& info) {
   return keys;
 }
 
+/// What is said elsewhere for a thing counts more than what is spelt alike.
+std::string hint_for_unknown(const TableInfo& info, const std::string& key,
+                             const std::vector<std::string>& known) {
+  if (std::string hint = hint_for_key(info, key); !hint.empty()) return hint;
+  const std::string likely = nearest(key, known);
+  return likely.empty() ? "its keys are " + words_text(known, "and")
+                        : fmt::format("did you mean `{}`?", likely);
+}
+
 bool check_unknown_keys(const TableInfo& info, const Node& map, const std::string& label,
                         Diagnostics& diagnostics) {
   const std::vector<std::string> known = known_keys(info);
@@ -30,12 +41,10 @@ bool check_unknown_keys(const TableInfo& info, const Node& map, const std::strin
   for (const Node::Key& key : map.keys) {
     if (find_field(info, key.name) != nullptr) continue;
     good = false;
-    const std::string likely = nearest(key.name, known);
     diagnostics
         .error(Code::kUnknownKey, key.span,
                fmt::format("unknown key {} in {}", in_backticks(key.name), label))
-        .with_hint(likely.empty() ? "its keys are " + words_text(known, "and")
-                                  : fmt::format("did you mean `{}`?", likely));
+        .with_hint(hint_for_unknown(info, key.name, known));
   }
   return good;
 }

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <udunits2.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <map>
@@ -62,6 +63,36 @@ const std::vector<std::string> kCommonUnits{
     "kg",  "g",  "t",  "lb",  "m",  "km", "cm",  "mm",  "um",   "nm",  "ft",     "in",     "AU",
     "s",   "ms", "us", "min", "h",  "hr", "day", "rad", "mrad", "deg", "arcmin", "arcsec", "rev",
     "rpm", "Hz", "N",  "mN",  "kN", "Nm", "mNm", "Nms", "J",    "W",   "Pa",     "K"};
+
+/// Abbreviations that are no units by themselves.
+constexpr std::pair<std::string_view, std::string_view> kAbbreviations[] = {
+    {"dps", "deg/s"}, {"mps", "m/s"},   {"kmps", "km/s"},   {"kmh", "km/h"},
+    {"kph", "km/h"},  {"rps", "rev/s"}, {"radps", "rad/s"}, {"degps", "deg/s"}};
+
+bool is_common(const std::string& name) {
+  return std::ranges::find(kCommonUnits, name) != kCommonUnits.end();
+}
+
+/// `kgm` as `kg m`: a product whose blanks were left out. Empty when it is none.
+std::string taken_apart(const std::string& name) {
+  for (std::size_t length = 1; length < name.size(); ++length) {
+    const std::string first = name.substr(0, length);
+    const std::string rest = name.substr(length);
+    if (!is_common(first)) continue;
+    if (is_common(rest)) return first + " " + rest;
+    if (const std::string parts = taken_apart(rest); !parts.empty()) return first + " " + parts;
+  }
+  return {};
+}
+
+/// The whole unit with what is meant in the place of `culprit`; empty when nobody knows.
+std::string meant_unit(const std::string& culprit, const std::string& unit) {
+  std::string meant = taken_apart(culprit);
+  for (const auto& [abbreviation, full] : kAbbreviations)
+    if (culprit == abbreviation) meant = full;
+  if (meant.empty()) return {};
+  return std::string(unit).replace(unit.find(culprit), culprit.size(), meant);
+}
 
 /// A power of ten that UDUNITS computed, such as the square of 1e-6, is made the nearest double.
 double cleaned(double factor) {
@@ -180,6 +211,10 @@ class UnitSystem {
       culprit = name;
       break;
     }
+    const std::string meant = meant_unit(culprit, text.ascii);
+    if (!meant.empty())
+      return failure(fmt::format("unknown unit {}", in_backticks(culprit)),
+                     fmt::format("did you mean `{}`?", meant));
     const std::string near = nearest(culprit, kCommonUnits);
     return failure(fmt::format("unknown unit {}", in_backticks(culprit)),
                    near.empty() ? "units are written like `kg m2`, `N m/rad` or `km^3/s^2`"

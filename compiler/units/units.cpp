@@ -124,7 +124,9 @@ Quantity explain_no_number(std::string_view text) {
     return failure(fmt::format("{} is a unit without its number", in_backticks(text)),
                    fmt::format("write the number before it, such as `1 {}`", text));
   }
-  return failure(fmt::format("{} is not a number", in_backticks(text)));
+  const bool has_pi = text.find("pi") != std::string_view::npos;
+  return failure(fmt::format("{} is not a number", in_backticks(text)),
+                 has_pi ? "there are no formulas: write the digits, or an angle as `90 deg`" : "");
 }
 
 /// `0x10`, `0b101`, `0o17`
@@ -134,6 +136,24 @@ bool is_other_base(const NumberText& number) {
   const bool hexadecimal = letter == 'x' || letter == 'X';
   return (hexadecimal && std::isxdigit(static_cast<unsigned char>(number.rest[1])) != 0) ||
          ((letter == 'o' || letter == 'b') && is_digit(number.rest[1]));
+}
+
+/// `1e`, `2.5e-`, `1e kg`: of an exponent that has no digits; not `5 e`, which is a unit.
+bool is_incomplete(const NumberText& number) {
+  std::string_view rest = number.rest;
+  if (!number.exponent.empty() || rest.empty() || (rest[0] != 'e' && rest[0] != 'E')) return false;
+  rest.remove_prefix(1);
+  if (rest.starts_with('+') || rest.starts_with('-')) rest.remove_prefix(1);
+  return rest.empty() || rest[0] == ' ' || rest[0] == '\t';
+}
+
+/// `1.5d3`, which is also 1.5 days cubed: the exponent of Fortran.
+bool is_fortran(std::string_view rest) {
+  if (rest.empty() || (rest[0] != 'd' && rest[0] != 'D')) return false;
+  rest.remove_prefix(1);
+  if (rest.starts_with('+') || rest.starts_with('-')) rest.remove_prefix(1);
+  const std::size_t digits = count_digits(rest);
+  return digits > 0 && (digits == rest.size() || rest[digits] == ' ');
 }
 
 /// What to write instead when a number goes on with `next`; none when a unit may begin there.
@@ -165,6 +185,12 @@ std::optional<Quantity> explain_bad_number(std::string_view text, const NumberTe
     return failure(fmt::format("{} has a leading zero", shown),
                    "numbers are decimal; write it without the zero");
   }
+  if (is_incomplete(number))
+    return failure(fmt::format("{} is an incomplete number: nothing follows the `e`", shown),
+                   "write the exponent, such as `1e3`, or leave the `e` out");
+  if (is_fortran(number.rest))
+    return failure(fmt::format("{} is not a number: the exponent begins with `e`", shown),
+                   "write for example `1.5e3`");
   if (is_other_base(number)) return failure(fmt::format("{} is not a decimal number", shown));
   const std::string_view rest = trimmed(number.rest);
   if (rest.empty()) return std::nullopt;

@@ -63,6 +63,16 @@ TEST(Numbers, RefuseOtherNotations) {
   EXPECT_THAT(parse_quantity("12:30", "s").hint, HasSubstr("min"));
 }
 
+TEST(Numbers, AreRefusedHalfWritten) {
+  for (const char* text : {"1e", "1E", "2.5e-", "1e+", "1e kg", "1e- kg"})
+    EXPECT_THAT(error_of(text, "kg"), HasSubstr("incomplete number")) << text;
+  for (const char* text : {"1d3", "1.5D-3", "1d+0", "2d1 kg"})
+    EXPECT_THAT(error_of(text, "kg"), HasSubstr("the exponent begins with `e`")) << text;
+  EXPECT_EQ(value_of("1d", "s"), 86400.0);  // a day is a unit
+  EXPECT_EQ(value_of("1e3 kg", "kg"), 1000.0);
+  EXPECT_THAT(parse_quantity("pi/2", "rad").hint, HasSubstr("`90 deg`"));
+}
+
 TEST(Numbers, AreFinite) {
   for (const char* text : {".nan", ".NaN", "nan", "NaN", ".inf", "-.inf", "+.INF", "inf", "-inf",
                            "infinity", "nan kg", "inf kg"}) {
@@ -210,6 +220,24 @@ TEST(Units, ThatDoNotExistComeWithTheNearest) {
   EXPECT_EQ(parse_quantity("5 KG", "kg").hint, "did you mean `kg`?");
   EXPECT_EQ(parse_quantity("5 dge", "rad").hint, "did you mean `deg`?");
   EXPECT_EQ(error_of("5 kg blub/s", "kg"), "unknown unit `blub`");
+}
+
+TEST(Units, WhoseBlanksAreMissingAreTakenApart) {
+  const auto hint = [](const char* unit) {
+    return parse_quantity(std::string("1 ") + unit, "s").hint;
+  };
+  EXPECT_EQ(hint("kgm2"), "did you mean `kg m2`?");
+  EXPECT_EQ(hint("kgmm2"), "did you mean `kg mm2`?");
+  EXPECT_EQ(hint("kgm^2/s"), "did you mean `kg m^2/s`?");
+  EXPECT_EQ(hint("dps"), "did you mean `deg/s`?");
+  EXPECT_EQ(hint("kmh"), "did you mean `km/h`?");
+}
+
+TEST(Quantity, KnowsWhichUnitItWasWrittenIn) {
+  EXPECT_EQ(parse_quantity("5", "m").unit, "");
+  EXPECT_EQ(parse_quantity("5 mm", "m").unit, "mm");
+  EXPECT_EQ(parse_quantity("5 mm", "m").factor, 1e-3);
+  EXPECT_EQ(parse_quantity("5 m", "m").factor, 1.0);
 }
 
 TEST(Units, WithoutANumberAreRefused) {
