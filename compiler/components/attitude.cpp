@@ -132,12 +132,18 @@ Quaterniond written(const AttitudeSpec& attitude, const PointState& point) {
 }
 
 void check_quaternion(const std::vector<double>& q, Span span, Diagnostics& diagnostics) {
-  const double norm = from_list(q).norm();
+  const Quaterniond quaternion = from_list(q);
+  const double norm = quaternion.norm();
   if (std::abs(norm - 1.0) <= kQuaternionTolerance) return;
+  const Quaterniond unit = quaternion.normalized();
+  const bool has_direction = norm > 0.0 && std::isfinite(norm);
   diagnostics
       .error(Code::kNotUnitQuaternion, span,
              fmt::format("the quaternion has norm {}, not 1", shortest(norm)))
-      .with_hint("its digits must give a length of one; scalar first: [1, 0, 0, 0] is no rotation");
+      .with_hint(has_direction ? fmt::format("normalised it is [{}, {}, {}, {}], scalar first",
+                                             shortest(unit.w()), shortest(unit.x()),
+                                             shortest(unit.y()), shortest(unit.z()))
+                               : "scalar first: [1, 0, 0, 0] is no rotation");
 }
 
 void check_rotation(const AttitudeSpec& attitude, Diagnostics& diagnostics) {

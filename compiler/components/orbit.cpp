@@ -8,13 +8,26 @@
 #include "compiler/ir/number.h"
 
 namespace twincraft {
+namespace {
+
+constexpr const char* kUnboundHint =
+    "hyperbolic and parabolic orbits have no elements here yet; give `position` and `velocity`";
+
+/// Positive; of a negative one check() knows what it means.
+Kind<double> semi_major_axis() {
+  Kind<double> kind = quantity("m", Range::kPositive);
+  kind.read = quantity("m").read;
+  return kind;
+}
+
+}  // namespace
 
 const Table<OrbitSpec>& orbit_table() {
   static const Table<OrbitSpec> table{
       "orbit",
       "Osculating elements of a bound orbit about the attracting body, in N.",
       {
-          required("semi_major_axis", &OrbitSpec::semi_major_axis, quantity("m", Range::kPositive),
+          required("semi_major_axis", &OrbitSpec::semi_major_axis, semi_major_axis(),
                    "Half the long axis of the ellipse."),
           required("eccentricity", &OrbitSpec::eccentricity, number(Range::kNotNegative),
                    "0 for a circle, below 1."),
@@ -31,12 +44,23 @@ const Table<OrbitSpec>& orbit_table() {
 }
 
 void check(const OrbitSpec& orbit, Diagnostics& diagnostics) {
-  if (orbit.eccentricity < 1.0) return;
-  diagnostics
-      .error(Code::kOrbitNotBound, orbit.span_of("eccentricity"),
-             fmt::format("the orbit is not bound: eccentricity {} is not below 1",
-                         shortest(orbit.eccentricity)))
-      .with_hint("give `position` and `velocity` for a parabolic or hyperbolic start");
+  if (orbit.semi_major_axis == 0.0) {
+    diagnostics.error(Code::kOutOfRange, orbit.span_of("semi_major_axis"),
+                      "`semi_major_axis` of orbit is 0, but must be positive");
+  } else if (orbit.semi_major_axis < 0.0) {
+    diagnostics
+        .error(Code::kOrbitNotBound, orbit.span_of("semi_major_axis"),
+               fmt::format("the orbit is not bound: a semi-major axis of {} m, below 0, is that of "
+                           "a hyperbola",
+                           shortest(orbit.semi_major_axis)))
+        .with_hint(kUnboundHint);
+  } else if (!(orbit.eccentricity < 1.0)) {
+    diagnostics
+        .error(Code::kOrbitNotBound, orbit.span_of("eccentricity"),
+               fmt::format("the orbit is not bound: eccentricity {} is not below 1",
+                           shortest(orbit.eccentricity)))
+        .with_hint(kUnboundHint);
+  }
 }
 
 PointState state_of(const OrbitSpec& orbit, double mu) {
