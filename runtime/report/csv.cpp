@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "compiler/ir/number.h"
+#include "runtime/report/printed_time.h"
 
 namespace twincraft {
 namespace {
@@ -47,7 +48,8 @@ void add_coordinate(const Coordinate& coordinate, std::vector<Column>& columns) 
 
 std::vector<Column> columns_of(const Model& model) {
   std::vector<Column> columns;
-  columns.push_back({"t [s]", [](const Observation& sample) { return sample.time; }});
+  columns.push_back({"t [s]", [printed = PrintedTime(model.simulation.step)](
+                                  const Observation& sample) { return printed(sample.time); }});
   add_vector("r_BN_N", "m", &Observation::r_BN_N, columns);
   add_vector("v_BN_N", "m/s", &Observation::v_BN_N, columns);
   add_quaternion(columns);

@@ -11,6 +11,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "runtime/report/printed_time.h"
+
 namespace twincraft {
 namespace {
 
@@ -55,7 +57,10 @@ void add_coordinate(const Coordinate& coordinate, std::vector<Variable>& variabl
 
 std::vector<Variable> variables_of(const Model& model) {
   std::vector<Variable> variables{
-      scalar("time", "s", "time since the start", [](const Observation& o) { return o.time; }),
+      scalar("time", "s", "time since the start",
+             [printed = PrintedTime(model.simulation.step)](const Observation& o) {
+               return printed(o.time);
+             }),
       vector_variable("r_BN_N", "m", "hub origin, inertial axes", &Observation::r_BN_N),
       vector_variable("v_BN_N", "m s-1", "velocity of the hub origin, inertial axes",
                       &Observation::v_BN_N),
