@@ -33,13 +33,35 @@ Fault unexpected(const CLI::App& app, const std::vector<std::string>& extras) {
   const auto flag = std::find_if(extras.begin(), extras.end(),
                                  [](const std::string& text) { return text.starts_with("-"); });
   if (flag == extras.end())
-    return {fmt::format("unexpected argument `{}`", printable(extras.front())),
+    return {fmt::format("unexpected argument {}", in_backticks(extras.front())),
             fmt::format("`{} --help` shows the usage", app.get_name())};
   const std::string word = flag->substr(0, flag->find('='));
   const std::string near = nearest(word, flags_of(app));
-  return {fmt::format("unknown flag `{}`", printable(word)),
+  return {fmt::format("unknown flag {}", in_backticks(word)),
           near.empty() ? fmt::format("`{} --help` lists the flags", app.get_name())
                        : fmt::format("did you mean `{}`?", near)};
+}
+
+/// `-o`, or the name of a positional argument.
+std::string shown_name(const CLI::Option& option) {
+  return option.nonpositional() && !option.get_snames().empty() ? "-" + option.get_snames().front()
+                                                                : option.get_name();
+}
+
+/// An empty value is a variable of the shell that was not set, and never means the default.
+std::optional<Fault> empty_value(const CLI::App& app) {
+  for (const CLI::Option* option : app.get_options()) {
+    const std::vector<std::string>& values = option->results();
+    if (std::ranges::find(values, std::string()) == values.end()) continue;
+    const std::string name = shown_name(*option);
+    if (option->get_type_name() == "DIR")
+      return Fault{fmt::format("`{}` names no folder: its value is empty", name),
+                   fmt::format("write for example `{} out`", name)};
+    return Fault{fmt::format("`{}` is empty", name),
+                 fmt::format("give it a value, or leave it out; `{} --help` shows the usage",
+                             app.get_name())};
+  }
+  return std::nullopt;
 }
 
 /// A slip in a flag can leave CLI11 complaining of something else first; the slip is the cause.
@@ -49,12 +71,12 @@ Fault fault_of(const CLI::App& app, const CLI::ParseError& error) {
   const std::string text = error.what();
   const auto ends_at = [&text](std::string_view part) { return text.find(part); };
   if (const std::size_t end = ends_at(": At Most 1 required"); end != std::string::npos)
-    return {fmt::format("`{}` is given more than once", printable(text.substr(0, end))),
+    return {fmt::format("{} is given more than once", in_backticks(text.substr(0, end))),
             "give it once; only `--set` and `-W` can be repeated"};
   const std::string prefix = "Could not convert: ";
   if (const std::size_t end = ends_at(" = "); text.starts_with(prefix) && end != std::string::npos)
-    return {fmt::format("`{}` cannot be `{}`", text.substr(prefix.size(), end - prefix.size()),
-                        printable(text.substr(end + 3))),
+    return {fmt::format("`{}` cannot be {}", text.substr(prefix.size(), end - prefix.size()),
+                        in_backticks(text.substr(end + 3))),
             "a whole number is expected"};
   return {printable(text), fmt::format("`{} --help` shows the flags", app.get_name())};
 }
@@ -90,7 +112,8 @@ std::string check_warning_word(std::string& word) {
   std::vector<std::string> words{"error"};
   for (const Code code : all_codes()) words.push_back(fmt::format("{}{}", kNo, code_name(code)));
   const std::string near = nearest(word, words);
-  return fmt::format("`-W{}` is neither `-Werror` nor `-Wno-CODE` of a known code{}", word,
+  return fmt::format("{} is neither `-Werror` nor `-Wno-CODE` of a known code{}",
+                     in_backticks("-W" + word),
                      near.empty() ? "" : fmt::format("; did you mean `-W{}`?", near));
 }
 
@@ -99,15 +122,42 @@ std::string check_warning_word(std::string& word) {
 std::optional<int> parse_command_line(CLI::App& app, int argc, const char* const* argv) {
   try {
     app.parse(argc, argv);
-    return std::nullopt;
   } catch (const CLI::Success& wish) {  // --help, --version
     return app.exit(wish);
   } catch (const CLI::ParseError& error) {
     const Fault fault = fault_of(app, error);
-    write_standard_error(
-        fmt::format("{}: {}\n  hint: {}\n", app.get_name(), fault.text, fault.hint));
-    return kExitUsage;
+    return report_usage(app.get_name(), fault.text, fault.hint);
   }
+  const std::optional<Fault> fault = empty_value(app);
+  if (fault) return report_usage(app.get_name(), fault->text, fault->hint);
+  return std::nullopt;
+}
+
+int report_usage(std::string_view program, const std::string& text, const std::string& hint) {
+  write_standard_error(fmt::format("{}: {}\n  hint: {}\n", program, text, hint));
+  return kExitUsage;
+}
+
+int explain_code(std::string_view program, const std::string& word) {
+  std::string wanted = word;
+  std::ranges::transform(wanted, wanted.begin(), [](unsigned char c) {
+    return static_cast<char>(c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c);
+  });
+  const std::optional<Code> code = code_of(wanted);
+  if (!code) {
+    std::vector<std::string> names;
+    for (const Code known : all_codes()) names.emplace_back(code_name(known));
+    const std::string near = nearest(wanted, names);
+    return report_usage(program, "there is no diagnostic code " + in_backticks(word),
+                        near.empty()
+                            ? fmt::format("codes run from {} to {}", names.front(), names.back())
+                            : fmt::format("did you mean `{}`?", near));
+  }
+  const std::string error = write_standard_output(
+      fmt::format("{}: {}\n\n{}\n", wanted, code_title(*code), code_explanation(*code)));
+  if (error.empty()) return kExitDone;
+  write_standard_error(fmt::format("{}: {}\n", program, error));
+  return kExitInputOutput;
 }
 
 CLI::Validator one_of(std::vector<std::string> words) {
@@ -115,7 +165,7 @@ CLI::Validator one_of(std::vector<std::string> words) {
   const auto check = [words = std::move(words), choices](std::string& word) -> std::string {
     if (std::find(words.begin(), words.end(), word) != words.end()) return {};
     const std::string near = nearest(word, words);
-    return fmt::format("`{}` is none of {}{}", word, choices,
+    return fmt::format("{} is none of {}{}", in_backticks(word), choices,
                        near.empty() ? "" : fmt::format("; did you mean `{}`?", near));
   };
   return CLI::Validator(check, "");

@@ -22,8 +22,16 @@ enum ExitCode {
 };
 
 /// Parse into `app`. Prints help or version to standard output, a usage error with its near miss to
-/// standard error. @return nothing to go on, or the code the program exits with
+/// standard error. A flag with an empty value is a usage error. @return nothing to go on, or the
+/// code the program exits with
 std::optional<int> parse_command_line(CLI::App& app, int argc, const char* const* argv);
+
+/// A usage error on standard error. @return kExitUsage
+int report_usage(std::string_view program, const std::string& text, const std::string& hint);
+
+/// What `--explain` prints for a code, such as `SC2007`; in lower case it is known too.
+/// @return the exit code
+int explain_code(std::string_view program, const std::string& word);
 
 /// Accepts exactly these words; for any other it names the nearest.
 CLI::Validator one_of(std::vector<std::string> words);

@@ -38,14 +38,12 @@ struct Options {
   std::vector<std::string> targets;  // of `emit`
 };
 
-void complain(const std::string& text, const std::string& hint = {}) {
+void complain(const std::string& text) {
   write_standard_error(fmt::format("sccompile: {}\n", text));
-  if (!hint.empty()) write_standard_error(fmt::format("  hint: {}\n", hint));
 }
 
 int usage(const std::string& text, const std::string& hint) {
-  complain(text, hint);
-  return kExitUsage;
+  return report_usage("sccompile", text, hint);
 }
 
 std::string did_you_mean(const std::string& word, const std::vector<std::string>& words) {
@@ -103,14 +101,24 @@ std::optional<int> refuse_bad_values(Options& options) {
   if (to_stdout && options.diagnostics != "text") {
     return usage("`-o -` and `--diagnostics` both want standard output", "write to a folder");
   }
-  if (options.folder.empty()) {
-    return usage("`-o` names no folder", "write `-o .` for this one, `-o -` for standard output");
-  }
   const bool needs_spec = !options.schema && !options.reference && options.explain.empty();
   if (needs_spec && options.request.file.empty()) {
     return usage("SPEC is missing", "for example `sccompile models/quickstart.yaml -o out`");
   }
   return std::nullopt;
+}
+
+/// What is written on the command line and has no effect beside another flag is said.
+void warn_of_idle_flags(const CLI::App& app, const Options& options) {
+  const auto warn = [&app](const char* busy, std::initializer_list<const char*> idle) {
+    for (const char* name : idle)
+      if (app.get_option(name)->count() > 0)
+        complain(fmt::format("warning: `{}` has no effect with `{}`", name, busy));
+  };
+  if (options.check) warn("--check", {"-o", "--emit"});
+  for (const char* only : {"--schema", "--reference", "--explain"})
+    if (app.get_option(only)->count() > 0)
+      warn(only, {"SPEC", "-o", "--emit", "--set", "--check"});
 }
 
 /// A document, for programs: its bytes reach them as they are.
@@ -119,22 +127,6 @@ int print(const std::string& document) {
   if (error.empty()) return kExitDone;
   complain(error);
   return kExitInputOutput;
-}
-
-int explain(const std::string& word) {
-  std::string wanted = word;
-  std::transform(wanted.begin(), wanted.end(), wanted.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-  std::vector<std::string> names;
-  for (const Code code : all_codes()) {
-    names.emplace_back(code_name(code));
-    if (code_name(code) != wanted) continue;
-    return print(fmt::format("{}: {}\n\n{}\n", wanted, code_title(code), code_explanation(code)));
-  }
-  const std::string near = nearest(wanted, names);
-  return usage("there is no diagnostic code " + in_backticks(word),
-               near.empty() ? fmt::format("codes run from {} to {}", names.front(), names.back())
-                            : fmt::format("did you mean `{}`?", near));
 }
 
 /// @return kExitDone, or kExitInputOutput when standard output is closed
@@ -190,17 +182,10 @@ int check(const Bundle& bundle, const Options& options) {
   return proof.pass() ? kExitDone : kExitFindings;
 }
 
-/// `--set` without PATH=VALUE is a slip on the command line, not in the spec.
-bool is_bad_override(const Diagnostics& diagnostics) {
-  const std::vector<Diagnostic>& all = diagnostics.all();
-  return std::any_of(all.begin(), all.end(),
-                     [](const Diagnostic& fault) { return fault.code == Code::kOverrideForm; });
-}
-
 int run(const Options& options) {
   if (options.schema) return print(json_schema());
   if (options.reference) return print(reference_markdown());
-  if (!options.explain.empty()) return explain(options.explain);
+  if (!options.explain.empty()) return explain_code("sccompile", options.explain);
 
   Sources sources;
   Diagnostics diagnostics;
@@ -212,7 +197,7 @@ int run(const Options& options) {
   if (options.check && result.bundle) foresee(result, diagnostics);
   judge_warnings(options.warnings, diagnostics);
   if (const int code = report(diagnostics, options); code != kExitDone) return code;
-  if (is_bad_override(diagnostics)) return kExitUsage;
+  if (result.bad_override) return kExitUsage;
   if (!result.bundle || diagnostics.has_errors()) return kExitFindings;
   return options.check ? check(*result.bundle, options) : write_results(*result.bundle, options);
 }
@@ -223,6 +208,7 @@ int parse_and_run(int argc, char** argv) {
   describe(app, options);
   if (const std::optional<int> code = parse_command_line(app, argc, argv)) return *code;
   if (const std::optional<int> code = refuse_bad_values(options)) return *code;
+  warn_of_idle_flags(app, options);
   return run(options);
 }
 

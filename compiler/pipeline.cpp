@@ -52,6 +52,12 @@ std::optional<Node> load(const Source& source, const CompileRequest& request, So
   return root;
 }
 
+/// Of the command line: those in a study are read later.
+bool has_bad_override(const Diagnostics& diagnostics) {
+  const auto is_bad = [](const Diagnostic& fault) { return fault.code == Code::kOverrideForm; };
+  return std::ranges::any_of(diagnostics.all(), is_bad);
+}
+
 /// Syntax tree to a spec in which every default is filled in and every reference holds.
 std::optional<Spec> read(const Node& root, Diagnostics& diagnostics) {
   if (!refuse_late_extends(root, diagnostics)) return std::nullopt;
@@ -315,7 +321,7 @@ CompileResult compile(const CompileRequest& request, Sources& sources, Diagnosti
   Origin origin;
   std::vector<Override> changes;
   const std::optional<Node> root = load(source, request, sources, origin, changes, diagnostics);
-  if (!root) return {};
+  if (!root) return {.bad_override = has_bad_override(diagnostics)};
   std::optional<Compiled> compiled = compile_tree(*root, diagnostics);
   if (!compiled) return {};
   CompileResult result;

@@ -52,6 +52,7 @@ inline constexpr std::size_t kCheckedMembers = 10'000;
 struct CompileResult {
   std::optional<Bundle> bundle = {};        // of the spec itself; nothing when there were errors
   std::string io_error = {};                // the file could not be read: exit code 3
+  bool bad_override = false;                // an override is no PATH=VALUE: exit code 2
   std::unique_ptr<const Study> study = {};  // when the spec has one
   std::unique_ptr<const Variants> variants = {};  // with the bundle
   Span step = {};                                 // where the spec gives the step, with the bundle

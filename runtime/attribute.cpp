@@ -118,6 +118,8 @@ Subject choose(const ReportedMember& member) {
 
 int deliver(const Report& report, bool has_study, const CommonOptions& options) {
   const int written = write_report(report, options);
+  if (written == kExitDone && !options.folder.empty())
+    tell_written({"report.json", "report.html"}, options);
   if (!prints_report(options)) return written;
   const std::string note =
       has_study ? "\nthe spec itself was run; its study was left out\n" : std::string();
@@ -182,7 +184,7 @@ int attribute_command(int argc, char** argv) {
   CommonOptions options;
   describe(app, options);
   if (const std::optional<int> code = parse_command_line(app, argc, argv)) return *code;
-  translate_conveniences(options);
+  if (const std::optional<int> code = settle_flags("scsim attribute", options)) return *code;
   Sources sources;
   CompileResult compiled;
   if (const int code = compile_spec(options, sources, compiled); code != kExitDone) return code;

@@ -2,6 +2,7 @@
 #include "runtime/command.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -22,12 +23,34 @@ bool shows_progress(const CommonOptions& options) {
   return options.progress == "always" || ::isatty(STDERR_FILENO) != 0;
 }
 
+/// A flag that stands for a `--set`.
+struct Convenience {
+  const char* name;
+  const char* path;
+  std::string value;  // empty: not given
+};
+
+std::vector<Convenience> conveniences(const CommonOptions& options) {
+  return {{"--step", "simulation.step", options.step},
+          {"--integrator", "simulation.integrator", options.integrator},
+          {"--duration", "simulation.duration", options.duration}};
+}
+
+/// `simulation.step` of `simulation.step = 0.1`.
+std::string path_of(const std::string& override) {
+  return CLI::detail::trim_copy(override.substr(0, override.find('=')));
+}
+
+/// One path is the other, or leads to a part of it.
+bool overlap(const std::string& a, const std::string& b) {
+  return a == b || a.starts_with(b + ".") || b.starts_with(a + ".");
+}
+
 }  // namespace
 
 void describe_input(CLI::App& app, CommonOptions& options, std::string_view files) {
   app.add_option("spec", options.request.file, "spacecraft spec, or - for standard input")
-      ->type_name("SPEC")
-      ->required();
+      ->type_name("SPEC");
   app.add_option("-o,--output", options.folder, fmt::format("write {} here", files))
       ->type_name("DIR");
   app.add_option("--set", options.request.overrides, "change the spec first; repeatable")
@@ -55,15 +78,30 @@ void describe_talk(CLI::App& app, CommonOptions& options) {
       ->type_name("FORMAT")
       ->check(one_of({"text", "json"}));
   add_warning_flags(app, options.warnings);
+  app.add_option("--explain", options.explain, "what a diagnostic code means, and the cure")
+      ->type_name("CODE");
 }
 
-void translate_conveniences(CommonOptions& options) {
-  const auto set = [&options](const char* path, const std::string& value) {
-    if (!value.empty()) options.request.overrides.push_back(fmt::format("{}={}", path, value));
-  };
-  set("simulation.step", options.step);
-  set("simulation.integrator", options.integrator);
-  set("simulation.duration", options.duration);
+std::optional<int> settle_flags(std::string_view program, CommonOptions& options) {
+  if (!options.explain.empty()) return explain_code(program, options.explain);
+  if (options.request.file.empty())
+    return report_usage(program, "SPEC is missing",
+                        fmt::format("for example `{} models/quickstart.yaml -o out`", program));
+  if (options.folder == "-")
+    return report_usage(program, "`-o -` would be standard output, but a report is several files",
+                        "name a folder, such as `-o out`; `-o ./-` is a folder named `-`");
+  const std::vector<std::string> given = options.request.overrides;
+  for (const Convenience& flag : conveniences(options)) {
+    if (flag.value.empty()) continue;
+    for (const std::string& override : given)
+      if (overlap(path_of(override), flag.path))
+        return report_usage(program,
+                            fmt::format("`{}` and {} set the same", flag.name,
+                                        in_backticks("--set " + path_of(override))),
+                            "leave one of them out");
+    options.request.overrides.push_back(fmt::format("{}={}", flag.path, flag.value));
+  }
+  return std::nullopt;
 }
 
 void complain(std::string_view text) { write_standard_error(fmt::format("scsim: {}\n", text)); }
@@ -76,7 +114,7 @@ int print(std::string_view text) {
 }
 
 int print_diagnostics(const Diagnostics& diagnostics, const CommonOptions& options) {
-  if (options.diagnostics == "json") return print(to_json(diagnostics));
+  if (options.diagnostics == "json") return print(to_json(diagnostics));  // safe on terminals too
   PrintOptions look;
   look.colour = wants_colour(STDERR_FILENO);
   write_standard_error(to_text(diagnostics, look));
@@ -129,6 +167,12 @@ int write_report(const Report& report, const CommonOptions& options) {
   if (error.empty()) return kExitDone;
   complain(error);
   return kExitInputOutput;
+}
+
+void tell_written(const std::vector<std::string>& files, const CommonOptions& options) {
+  if (options.quiet) return;
+  write_standard_error(
+      fmt::format("wrote {} to `{}`\n", fmt::join(files, ", "), printable(options.folder)));
 }
 
 bool prints_report(const CommonOptions& options) {

@@ -2,6 +2,7 @@
 // Tested by tests/agreement/scsim_test.cpp.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,6 +24,7 @@ struct CommonOptions {
   std::string progress = "auto";
   std::string diagnostics = "text";
   std::vector<std::string> warnings;  // what stands after -W
+  std::string explain;                // a diagnostic code: print its long text, run nothing
 };
 
 /// @param files  what is written into the folder
@@ -30,8 +32,10 @@ void describe_input(CLI::App& app, CommonOptions& options, std::string_view file
 void describe_jobs(CLI::App& app, CommonOptions& options, const std::string& meaning);
 void describe_talk(CLI::App& app, CommonOptions& options);
 
-/// `--step` and its like as the overrides they stand for.
-void translate_conveniences(CommonOptions& options);
+/// What the flags say by themselves: a code to explain, flags that exclude each other, no spec.
+/// `--step` and its like become the overrides they stand for.
+/// @return the exit code, or nothing to go on
+std::optional<int> settle_flags(std::string_view program, CommonOptions& options);
 
 void complain(std::string_view text);
 /// To standard output. @return the exit code
@@ -53,6 +57,9 @@ int check_writable(const std::vector<std::string>& files);
 
 /// @return the exit code
 int write_report(const Report& report, const CommonOptions& options);
+
+/// Says on standard error what was written, unless `--quiet`. @param files  names in the folder
+void tell_written(const std::vector<std::string>& files, const CommonOptions& options);
 
 /// Whether a report for people goes to standard output; with JSON diagnostics that one document
 /// holds it.

@@ -19,6 +19,8 @@
 namespace twincraft {
 namespace {
 
+const std::string kAttribute = "attribute";
+
 struct Options : CommonOptions {
   bool netcdf = false;
   std::string engine = "both";
@@ -93,9 +95,25 @@ std::string write_trajectories(std::size_t index, const ReportedMember& member,
   return files.empty() ? std::string() : write_files(files);
 }
 
+/// The names of what is in the folder now.
+std::vector<std::string> written_files(const Report& report, const Options& options) {
+  std::vector<std::string> files{"report.json", "report.html"};
+  for (const EngineRun& run : report.members.front().result.engines) {
+    if (run.trajectory.samples.empty()) continue;
+    files.push_back(run.name + ".csv");
+    if (options.netcdf) files.push_back(run.name + ".nc");
+  }
+  if (report.members.size() == 2) files.emplace_back("0001/");
+  if (report.members.size() > 2)
+    files.push_back(fmt::format("0001/ to {:04}/", report.members.size() - 1));
+  return files;
+}
+
 /// Files first: a reader of the report who leaves early must not cost the results.
 int deliver(const Report& report, const Options& options) {
   const int written = write_report(report, options);
+  if (written == kExitDone && !options.folder.empty())
+    tell_written(written_files(report, options), options);
   if (!prints_report(options)) return written;
   const bool colour = wants_colour(STDOUT_FILENO);
   const int printed = print(report.study ? study_table(report, colour)
@@ -190,14 +208,25 @@ int compile_and_simulate(const Options& options) {
   return simulate(std::move(result), options);
 }
 
+/// A word before all flags that is nearly a command and no file.
+bool is_misspelt_command(const std::string& word) {
+  return !word.starts_with("-") && !nearest(word, {kAttribute}).empty() &&
+         !std::filesystem::exists(word);
+}
+
 int parse_and_run(int argc, char** argv) {
-  if (argc > 1 && std::string_view(argv[1]) == "attribute")
-    return attribute_command(argc - 1, argv + 1);
+  const std::string first = argc > 1 ? argv[1] : "";
+  if (first == kAttribute) return attribute_command(argc - 1, argv + 1);
+  if (is_misspelt_command(first))
+    return report_usage("scsim", fmt::format("unknown command {}", in_backticks(first)),
+                        fmt::format("did you mean `{}`?", kAttribute));
   CLI::App app{"Runs a spacecraft spec in both engines and says whether they agree.", "scsim"};
   Options options;
   describe(app, options);
   if (const std::optional<int> code = parse_command_line(app, argc, argv)) return *code;
-  translate_conveniences(options);
+  if (const std::optional<int> code = settle_flags("scsim", options)) return *code;
+  if (options.no_timing && app.get_option("--trials")->count() > 0 && options.trials > 0)
+    complain("warning: `--trials` has no effect with `--no-timing`");
   if (options.no_timing) options.trials = 0;
   return compile_and_simulate(options);
 }

@@ -40,8 +40,9 @@ std::string progress_line(std::string_view phase, double fraction, double elapse
 
 void ProgressBar::show(std::string_view phase, double fraction) {
   const Clock::time_point now = Clock::now();
-  if (phase != phase_) {
-    phase_ = phase;
+  // Of `timing trial 3 of 12` the first word is the phase.
+  if (const std::string_view word = phase.substr(0, phase.find(' ')); word != phase_) {
+    phase_ = word;
     phase_begin_ = now;
   }
   if (now - begin_ < kQuiet || now - last_drawn_ < kInterval) return;

@@ -25,6 +25,7 @@ class ProgressBar {
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
+  /// @param phase  its first word is the phase, what follows may change within it
   void show(std::string_view phase, double fraction);
   /// A line that stays, above the bar.
   void leave(std::string_view line);

@@ -150,6 +150,9 @@ std::string cost_block(const Member& result) {
                 duration(timing.median()), fmt::format("{}", run.trajectory.counts.evaluations),
                 is_mujoco && ratio ? fmt::format("{:.3g}x", 1.0 / *ratio) : scatter_words(timing));
   }
+  text += fmt::format(
+      "  median of {} timed trials per engine after the run; `--no-timing` skips them\n",
+      result.timing->planned_trials);
   return text;
 }
 

@@ -215,7 +215,8 @@ Timing time_member(const Bundle& bundle, const std::vector<EngineRun>& engines,
     if (ran_through(engine))
       contestants.push_back(bare_run(build(engine.name, bundle), bundle.model, options.stop));
   return time_engines(contestants, options.trials, [&options](int done, int planned) {
-    show(options, "timing", static_cast<double>(done) / planned);
+    show(options, fmt::format("timing trial {} of {}", std::min(done + 1, planned), planned),
+         static_cast<double>(done) / planned);
     return !stopped(options);
   });
 }

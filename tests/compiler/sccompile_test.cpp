@@ -214,6 +214,23 @@ TEST_F(Sccompile, ProvesTheTwoTargetsEqual) {
   EXPECT_EQ(files(), 0u);
 }
 
+TEST_F(Sccompile, SaysWhichFlagsHaveNoEffect) {
+  const Outcome run = run_sccompile(kQuickstart + out() + "--emit bsm --check 2>&1 >/dev/null");
+  EXPECT_EQ(run.exit_code, 0) << run.output;
+  EXPECT_THAT(run.output, HasSubstr("warning: `-o` has no effect with `--check`"));
+  EXPECT_THAT(run.output, HasSubstr("warning: `--emit` has no effect with `--check`"));
+  EXPECT_THAT(run_sccompile("--schema -o x 2>&1 >/dev/null").output,
+              HasSubstr("warning: `-o` has no effect with `--schema`"));
+  EXPECT_EQ(run_sccompile("--schema 2>&1 >/dev/null").output, "");
+  EXPECT_EQ(run_sccompile(kQuickstart + out() + "2>&1").output, "");
+}
+
+TEST_F(Sccompile, BlamesTheSpecForAPathOfItsStudy) {
+  const std::string malformed = "tests/malformed/study_path_malformed.yaml";
+  EXPECT_EQ(run_sccompile(malformed + out() + "2>/dev/null").exit_code, 1);
+  EXPECT_EQ(run_sccompile(kQuickstart + out() + "--set hub..mass=1 2>/dev/null").exit_code, 2);
+}
+
 TEST_F(Sccompile, ReportsATargetThatIsRefusedAndWritesTheOther) {
   const Outcome run = run_sccompile(
       spec("format: spacecraft/1\nname: ladder\nhub: {mass: 600, inertia: [400, 380, 360]}\n"
@@ -257,7 +274,9 @@ INSTANTIATE_TEST_SUITE_P(
         Usage{"two_specs", "x.yaml y.yaml", "unexpected argument `y.yaml`", "`sccompile --help`"},
         Usage{"unknown_target", "x.yaml --emit bsm,mjfc", "`--emit` cannot be `mjfc`",
               "did you mean `mjcf`?"},
-        Usage{"no_target", "x.yaml --emit ''", "`--emit` cannot be ``", "one of mjcf"},
+        Usage{"no_target", "x.yaml --emit ''", "`--emit` is empty", "give it a value"},
+        Usage{"no_folder", "x.yaml -o ''", "`-o` names no folder", "write for example `-o out`"},
+        Usage{"no_spec_name", "''", "`SPEC` is empty", "`sccompile --help`"},
         Usage{"unknown_format", "x.yaml --diagnostics jsno", "`--diagnostics` cannot be `jsno`",
               "did you mean `json`?"},
         Usage{"no_value", "x.yaml --set", "--set", "`sccompile --help`"},
