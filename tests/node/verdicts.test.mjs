@@ -168,6 +168,17 @@ describe("a study", () => {
     await page.context().close();
   });
 
+  test("knows of members that are only in report.json", async () => {
+    const { page } = await shown("many", (data) => {
+      study(data);
+      data.report.members.splice(3);
+      data.left_out = { 3: "failed", 7: "unresolved", 11: "unresolved" };
+    });
+    assert.match(await page.textContent("#verdict-detail"), /1 member failed and 2 members are unresolved/);
+    assert.equal(await page.locator("#convergence figure > svg .out").count(), 2 * Object.keys(integrators).length);
+    await page.context().close();
+  });
+
   test("counts its members from 0, as their folders are", async () => {
     const { page } = await shown("counted", study);
     assert.deepEqual(await texts(page, "#members tbody th"), Array.from({ length: 12 }, (_, i) => String(i)));

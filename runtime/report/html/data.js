@@ -15,7 +15,7 @@
 /** @typedef {{description: string, vehicle: string, plan: string,
  *             words: Record<string, {label: string, unit: string}>, is_study: boolean,
  *             is_work_precision: boolean, members_run: number, members_planned: number,
- *             report: any, histories: Histories, replay: Replay | null, mjcf: string,
+ *             left_out?: Record<string, string>, report: any, histories: Histories, replay: Replay | null, mjcf: string,
  *             resolved: string}} Page */
 
 /** @type {Page} */

@@ -58,8 +58,8 @@ function closestWords() {
 
 /** Why the verdict is what it is. */
 function verdictDetail() {
-  if (page.is_work_precision) return "A work-precision study has no verdict.";
   const verdict = runVerdict();
+  if (page.is_work_precision && verdict === "not_judged") return "A work-precision study has no verdict.";
   if (verdict === "failed") return engineTrouble();
   if (verdict === "interrupted") return engineTrouble() || "What was computed until then is shown.";
   if (verdict === "unresolved") return [unresolvedReason(), "Whether the engines agree says nothing."].filter(Boolean).join(" ");

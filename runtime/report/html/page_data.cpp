@@ -16,9 +16,19 @@ using Json = nlohmann::ordered_json;
 // A page is for looking at: beyond this a study's members are in report.json.
 constexpr std::size_t kMostMembers = 500;
 
+/// Members that are in no fit and why, by their numbers: of all, not of those that are shown.
+Json left_out(const Json& members) {
+  Json found = Json::object();
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    const std::string verdict = members[i].value("verdict", "");
+    if (verdict == "failed" || verdict == "unresolved" || verdict == "interrupted")
+      found[std::to_string(i)] = verdict;
+  }
+  return found;
+}
+
 /// What the page shows of report.json: the first members, resolved once.
-Json shown_report(const Report& report) {
-  Json json = report_value(report);
+Json shown_report(Json json) {
   Json& members = json["members"];
   if (members.size() > kMostMembers)
     members.erase(members.begin() + static_cast<std::ptrdiff_t>(kMostMembers), members.end());
@@ -48,7 +58,9 @@ Json words_json(const Report& report, const Json& shown) {
 std::string page_data(const Report& report) {
   const ReportedMember& first = report.members.front();
   const Model& model = first.bundle.model;
-  Json shown = shown_report(report);
+  Json whole = report_value(report);
+  Json not_counted = left_out(whole["members"]);
+  Json shown = shown_report(std::move(whole));
   Json json{{"description", model.description},
             {"vehicle", vehicle_words(model)},
             {"plan", plan_words(model)},
@@ -57,6 +69,7 @@ std::string page_data(const Report& report) {
             {"is_work_precision", report.study && report.study->is_work_precision},
             {"members_run", report.members.size()},
             {"members_planned", report.study ? report.study->members : 1},
+            {"left_out", std::move(not_counted)},
             {"report", std::move(shown)},
             {"histories", histories_json(first)},
             {"replay", replay_json(first)},

@@ -85,10 +85,7 @@ const trendKinds = {
 };
 
 /** Whether the i-th dot of a trend is of a member that counts. @param {any} trend @param {number} i */
-function dotCounts(trend, i) {
-  const member = page.report.members[trend.members?.[i] ?? -1];
-  return member === undefined || counts(member);
-}
+const dotCounts = (trend, i) => leftOutFor(trend.members?.[i]) === undefined;
 
 /** Median of the exponents between dots that count. @param {any} trend @param {TrendKind} kind */
 const fittedExponent = (trend, kind) => medianOf(trend[kind.exponents].map((/** @type {number | null} */ e, /** @type {number} */ i) =>
@@ -98,8 +95,8 @@ const fittedExponent = (trend, kind) => medianOf(trend[kind.exponents].map((/** 
 function dotMember(trend, i) {
   const index = trend.members?.[i];
   if (index === undefined) return "";
-  const member = page.report.members[index];
-  return `member ${index}` + (member && !counts(member) ? `, ${verdictLooks[memberVerdict(member)].word}` : "");
+  const verdict = leftOutFor(index);
+  return `member ${index}` + (verdict ? `, ${verdictLooks[verdict].word}` : "");
 }
 
 /** @param {any[]} trends @param {TrendKind} kind */

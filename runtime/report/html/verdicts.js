@@ -42,21 +42,29 @@ function runVerdict() {
   return found.includes("failed") ? "failed" : "not_judged";
 }
 
-/** Whether a member's numbers count in what is drawn through many. @param {any} member */
-const counts = (member) => !["failed", "unresolved", "interrupted"].includes(memberVerdict(member));
+/** Why a member is in no fit: `failed`, `unresolved`, `interrupted`; nothing of one that counts.
+ *  Only the first members are on the page whole. @param {number | undefined} index
+ *  @returns {Verdict | undefined} */
+function leftOutFor(index) {
+  if (index === undefined) return undefined;
+  const member = page.report.members[index];
+  const verdict = member ? memberVerdict(member) : /** @type {Verdict | undefined} */ (page.left_out?.[index]);
+  return verdict === "failed" || verdict === "unresolved" || verdict === "interrupted" ? verdict : undefined;
+}
 
-/** How many members have a verdict, in words. @param {Verdict} verdict */
-function countedMembers(verdict) {
-  const count = page.report.members.filter((/** @type {any} */ m) => memberVerdict(m) === verdict).length;
-  return { count, of: page.report.members.length };
+/** How many members are left out for a reason. @param {Verdict} verdict */
+function countLeftOut(verdict) {
+  let count = 0;
+  for (let i = 0; i < page.members_run; i += 1) if (leftOutFor(i) === verdict) count += 1;
+  return count;
 }
 
 /** The heading of a verdict that is no judgement; of others the program's own words stand. */
 function verdictTitle() {
   const verdict = runVerdict();
   if (verdict === "agree" || verdict === "disagree") return null;
-  const { count, of } = countedMembers(verdict);
-  const members = page.is_study && count > 0 ? `${count} of ${of} members` : "";
+  const count = countLeftOut(verdict);
+  const members = page.is_study && count > 0 ? `${count} of ${page.members_run} members` : "";
   switch (verdict) {
     case "unresolved": return members ? `${members} ${count === 1 ? "is" : "are"} not resolved` : "The run does not resolve the vehicle's motion";
     case "failed": return members ? `${members} failed` : "The run failed";
@@ -68,7 +76,7 @@ function verdictTitle() {
 /** `2 members failed, 3 are unresolved: they are marked, and left out of every fit.` */
 function leftOutWords() {
   if (!page.is_study) return "";
-  const failed = countedMembers("failed").count, unresolved = countedMembers("unresolved").count;
+  const failed = countLeftOut("failed"), unresolved = countLeftOut("unresolved");
   const members = (/** @type {number} */ n) => `${n} ${n === 1 ? "member" : "members"}`;
   const said = [failed > 0 ? `${members(failed)} failed` : "",
     unresolved > 0 ? `${members(unresolved)} ${unresolved === 1 ? "is" : "are"} unresolved` : ""].filter(Boolean);

@@ -18,14 +18,11 @@ function workClouds(error, cost, unit) {
       return {
         name: [e.label, way].filter(Boolean).join(", "), ...trendLook({ engine: e.key, settings: way ? { "simulation.integrator": way } : undefined }),
         line: way !== "",
-        dots: group.map((c) => ({ x: costOf(c, cost), y: c[error], hollow: !c.frontier, out: !memberCounts(c.member),
+        dots: group.map((c) => ({ x: costOf(c, cost), y: c[error], hollow: !c.frontier, out: leftOutFor(c.member) !== undefined,
           said: `${e.label}, ${settingWords(c.settings)}, member ${c.member}: ${written(c[error], 3)} ${unit}` })) };
     });
   });
 }
-
-/** @param {number | undefined} index of a member; one that the page does not hold counts */
-const memberCounts = (index) => page.report.members[index ?? -1] === undefined || counts(page.report.members[index ?? -1]);
 
 /** @param {"attitude_deg" | "position_m"} error @param {string} cost */
 function workFigure(error, cost) {
