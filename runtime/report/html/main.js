@@ -28,11 +28,12 @@ function closestFigure() {
   return judged.reduce((/** @type {any} */ most, /** @type {any} */ one) => (most === null || one.part > most.part ? one : most), null);
 }
 
-/** Why the first engine that has no whole run has none, in words. */
-function engineTrouble() {
+/** Why the first engine that has no whole run has none, in words.
+ *  @param {string[]} statuses of the engines that are asked about */
+function engineTrouble(...statuses) {
   for (const [i, member] of page.report.members.entries())
     for (const { key, label } of engines)
-      if (member.engines[key]?.reason)
+      if (member.engines[key]?.reason && statuses.includes(member.engines[key].status))
         return `${page.is_study ? `Member ${i}, ` : ""}${label}: ${member.engines[key].reason}.`;
   return "";
 }
@@ -60,11 +61,11 @@ function closestWords() {
 function verdictDetail() {
   const verdict = runVerdict();
   if (page.is_work_precision && verdict === "not_judged") return "A work-precision study has no verdict.";
-  if (verdict === "failed") return engineTrouble();
-  if (verdict === "interrupted") return engineTrouble() || "What was computed until then is shown.";
+  if (verdict === "failed") return engineTrouble("failed");
+  if (verdict === "interrupted") return engineTrouble("ok") || "What was computed until then is shown.";
   if (verdict === "unresolved") return [unresolvedReason(), "Whether the engines agree says nothing."].filter(Boolean).join(" ");
-  if (verdict === "not_judged" && engineTrouble() !== "") return engineTrouble();
-  return [closestWords(), leftOutWords()].filter(Boolean).join(" ");
+  const skipped = engineTrouble("skipped");
+  return verdict === "not_judged" && skipped ? skipped : [closestWords(), leftOutWords()].filter(Boolean).join(" ");
 }
 
 /** The verdict's look, and its words where the judgement is none. */

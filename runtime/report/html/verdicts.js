@@ -13,6 +13,9 @@ const verdictLooks = {
   interrupted: { word: "interrupted", kind: "unjudged" },
 };
 
+/** @param {unknown} text */
+const isVerdict = (text) => typeof text === "string" && Object.hasOwn(verdictLooks, text);
+
 /** The engines of a member that stopped. @param {any} member */
 const failedEngines = (member) => engines.filter((e) => member.engines?.[e.key]?.status === "failed");
 
@@ -24,7 +27,7 @@ function judgedFigures(member) {
 
 /** @param {any} member @returns {Verdict} */
 function memberVerdict(member) {
-  if (member.verdict in verdictLooks) return member.verdict;
+  if (isVerdict(member.verdict)) return member.verdict;
   if (failedEngines(member).length > 0) return "failed";
   if (engines.some((e) => String(member.engines?.[e.key]?.reason || "").startsWith("interrupted"))) return "interrupted";
   if (member.resolution?.resolved === false) return "unresolved";
@@ -36,7 +39,7 @@ function memberVerdict(member) {
 /** @returns {Verdict} */
 function runVerdict() {
   const { verdict, members, complete } = page.report;
-  if (verdict !== "not_judged" || page.is_work_precision) return verdict in verdictLooks ? verdict : "not_judged";
+  if (verdict !== "not_judged" || page.is_work_precision) return isVerdict(verdict) ? verdict : "not_judged";
   const found = members.map(memberVerdict);
   if (!complete || found.includes("interrupted")) return "interrupted";
   return found.includes("failed") ? "failed" : "not_judged";
