@@ -15,9 +15,10 @@ SpinUp spin_up_of(const Model& model) {
   if (!turns && torque.isZero(0.0)) return {};
   using Vector = Eigen::Matrix<long double, 3, 1>;
   const Vector along = (turns ? omega : torque).cast<long double>();
-  const Vector axis = along / along.stableNorm();
+  const long double size = along.stableNorm();
+  const Vector axis = along / size;
   SpinUp spin_up{.axis_B = axis.cast<double>()};
-  spin_up.rate = axis.dot(omega.cast<long double>());
+  if (turns) spin_up.rate = size;
   const long double moment = axis.dot(hub.I_PntC_L.cast<long double>() * axis);
   spin_up.acceleration = axis.dot(torque.cast<long double>()) / moment;
   return spin_up;

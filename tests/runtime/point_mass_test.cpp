@@ -13,6 +13,7 @@
 #include "runtime/study/conservation.h"
 #include "runtime/study/proof.h"
 #include "runtime/study/random_state.h"
+#include "runtime/study/run.h"
 
 namespace twincraft {
 namespace {

@@ -273,7 +273,9 @@ TEST(Tolerances, AreThoseOfTheReferenceInTheUnitOfTheMetric) {
   Model model = spin_up_model();
   model.agreement.references.spin_up.attitude = std::numbers::pi / 180.0;
   model.agreement.references.torque_free.rate = 1.0;
-  const std::vector<Observation> samples(1);
+  std::vector<Observation> samples(1);
+  samples[0].q_BN = Quaterniond::Identity();
+  samples[0].omega_BN_B.setZero();
   const auto found = deviations(ReferenceKind::kSpinUp, model, samples);
   EXPECT_NEAR(found[0].tolerance.value(), 1.0, 1.0e-15);  // [deg]
   EXPECT_EQ(found[1].tolerance, std::nullopt);
