@@ -116,9 +116,19 @@ Json load_json(const Load& load) {
 }
 
 Json tank_json(const Tank& tank) {
+  const bool jet = tank.momentum == LeavingMomentum::kJet;
   return {{"name", tank.name},
           {"content_kg", tank.content},
-          {"mass_flow_kg_s", schedule_json(tank.mass_flow)}};
+          {"mass_flow_kg_s", schedule_json(tank.mass_flow)},
+          {"depletion", {{"momentum", jet ? "jet" : "none"}}}};
+}
+
+Json nozzle_json(const Nozzle& nozzle) {
+  return {{"name", nozzle.name},
+          {"tank", nozzle.tank},
+          {"link", nozzle.link},
+          {"r_PL_L_m", vector_json(nozzle.r_PL_L)},
+          {"mass_flow_kg_s", schedule_json(nozzle.mass_flow)}};
 }
 
 Json initial_json(const InitialState& initial) {
@@ -150,6 +160,7 @@ std::string emit_bsm(const Model& model) {
   json["coordinates"] = list_json(model.coordinates, coordinate_json);
   json["loads"] = list_json(model.loads, load_json);
   if (!model.tanks.empty()) json["tanks"] = list_json(model.tanks, tank_json);
+  if (!model.nozzles.empty()) json["nozzles"] = list_json(model.nozzles, nozzle_json);
   json["gravity"] = {{"mu_m3_s2", model.gravity.mu}, {"law", word_of(model.gravity.bsm)}};
   json["initial"] = initial_json(model.initial);
   return json_text(json);

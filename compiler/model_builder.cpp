@@ -213,6 +213,13 @@ void ModelBuilder::add_load(const Mount& mount, Load load) {
   model_.loads.push_back(std::move(load));
 }
 
+void ModelBuilder::add_nozzle(const Mount& mount, Nozzle nozzle) {
+  if (at(model_.tanks, nozzle.tank).momentum == LeavingMomentum::kNone) return;
+  nozzle.link = mount.link;
+  nozzle.r_PL_L = point_on_link(mount, nozzle.r_PL_L);
+  model_.nozzles.push_back(std::move(nozzle));
+}
+
 Model ModelBuilder::build() && {
   form_inertials();
   take_tokens_out();

@@ -95,6 +95,9 @@ class ModelBuilder {
                       double rate);
   /// `load` is in the mount's axes, about its origin; `load.link` is set here.
   void add_load(const Mount& mount, Load load);
+  /// `nozzle.r_PL_L` is in the mount's axes, from its origin; `nozzle.link` is set here. Left out
+  /// where the propellant of its tank takes no momentum along. @pre the tank was added
+  void add_nozzle(const Mount& mount, Nozzle nozzle);
 
   /// Everything collected, with the tree's inertials formed from the ledger.
   Model build() &&;

@@ -19,9 +19,10 @@ const Table<GravitySpec>& gravity_table() {
                    "Gravitational parameter of the attracting body; the Earth's is "
                    "3.98600436e14 m3/s2."),
           optional("application", &GravitySpec::application, gravity_law(),
-                   "`system_com`: one force, at the system centre of mass. `body_com`: one force "
-                   "at the centre of mass of every body. `body_gradient`: also every body's own "
-                   "gravity-gradient torque."),
+                   "`system_com`: one uniform field, that of the system centre of mass, on every "
+                   "body. `body_com`: one force at the centre of mass of every body. "
+                   "`body_gradient`: also every body's own gravity-gradient torque; that of a "
+                   "massless wheel is part of its mount's, at the mount's centre of mass."),
       }};
   return table;
 }

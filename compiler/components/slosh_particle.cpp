@@ -26,9 +26,9 @@ const Table<ParticleSpec>& particle_table() {
                    "Where the spring is at rest; default the tank's centre, else the mount's "
                    "origin."),
           optional("stiffness", &ParticleSpec::stiffness, quantity("N/m", Range::kNotNegative),
-                   "Of the spring."),
+                   "Of the spring; it stays as it is when the tank drains."),
           optional("damping", &ParticleSpec::damping, quantity("N s/m", Range::kNotNegative),
-                   "Of the damper."),
+                   "Of the damper; it stays as it is when the tank drains."),
           optional("displacement", &ParticleSpec::displacement, quantity("m"), "Initial."),
           optional("rate", &ParticleSpec::rate, quantity("m/s"), "Initial."),
       }};

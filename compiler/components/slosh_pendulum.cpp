@@ -59,7 +59,7 @@ const Table<PendulumSpec>& pendulum_table() {
           optional("rates", &PendulumSpec::rates, two("rad/s"), "Their initial rates."),
           optional("damping", &PendulumSpec::damping, quantity("N s/m", Range::kNotNegative),
                    "Linear drag D on the bob: torques -D L^2 cos^2 theta phiDot and -D L^2 "
-                   "thetaDot."),
+                   "thetaDot. D stays as it is when the tank drains."),
           optional("inertia", &PendulumSpec::inertia, quantity("kg m2", Range::kNotNegative),
                    "Of the bob about its centre, the same about every axis. 0: a point mass. It "
                    "scales with the bob's mass."),

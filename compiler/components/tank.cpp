@@ -46,6 +46,26 @@ const Table<TankShapeSpec>& shape_table() {
   return table;
 }
 
+const Table<DepletionSpec>& depletion_table() {
+  static const Table<DepletionSpec> table{
+      "depletion",
+      "What propellant takes along when it leaves, besides the thrust. The bulk and every slosh "
+      "mass of the tank are its sources. With `none` a source loses mass where it is, with the "
+      "velocity it has there: the vehicle moves at every instant as one of constant masses, those "
+      "of that instant, and no transport term acts. With `jet` propellant flows in a straight line "
+      "from the centre of each source to the `position` of the thruster and leaves with the "
+      "velocity of that point, whatever bodies the two are on. The flow is steady: the mass in the "
+      "line, its acceleration, and the kick when the flow starts or stops are neglected.",
+      {
+          optional("momentum", &DepletionSpec::momentum,
+                   one_of<LeavingMomentum>(
+                       {{"none", LeavingMomentum::kNone}, {"jet", LeavingMomentum::kJet}}),
+                   "`none`: nothing, so there is no jet damping. `jet`: the momentum and angular "
+                   "momentum it has at the nozzle, which damps the rates of the vehicle."),
+      }};
+  return table;
+}
+
 Look look_of(const TankShapeSpec& shape) {
   Look look;
   look.part = Look::Part::kTank;
@@ -75,6 +95,9 @@ const Table<TankSpec>& tank_table() {
                    "Everything in it at t = 0, slosh included; the rest is the bulk."),
           optional("density", &TankSpec::density, maybe(quantity("kg/m3", Range::kPositive)),
                    "Of the propellant. With it, more than the tank holds is refused."),
+          optional(
+              "depletion", &TankSpec::depletion, object(depletion_table()),
+              "What leaves takes no angular momentum along, unless this says `{momentum: jet}`."),
       }};
   return table;
 }
@@ -125,7 +148,8 @@ void check(const TankSpec& tank, const Names& names, Diagnostics& diagnostics) {
 }
 
 void lower(const TankSpec& spec, double slosh, const Schedule& mass_flow, ModelBuilder& builder) {
-  const int tank = builder.add_tank({spec.name, spec.propellant, mass_flow});
+  const int tank =
+      builder.add_tank({spec.name, spec.propellant, mass_flow, spec.depletion.momentum});
   const double bulk = spec.propellant - slosh;
   if (!(bulk > kMujocoMinimum)) return;  // all of it sloshes
   // A body of its own, so that nothing else of the mount changes when it drains.

@@ -1,6 +1,7 @@
 // A propellant tank. What is in it is the bulk, a solid of the tank's shape about its centre, and
 // the slosh masses that name the tank. Thrusters that draw from it shrink all of them in fixed
-// proportion; the shape of the bulk stays. Tested by tests/compiler/propellant_test.cpp.
+// proportion; the shape of the bulk stays. `depletion` says what the propellant takes along. Tested
+// by tests/compiler/propellant_test.cpp.
 #pragma once
 
 #include <optional>
@@ -27,6 +28,10 @@ struct TankShapeSpec : Written {
   std::optional<CylinderSpec> cylinder;
 };
 
+struct DepletionSpec : Written {
+  LeavingMomentum momentum = LeavingMomentum::kNone;
+};
+
 struct TankSpec : Written {
   std::string name;
   std::string mount = "hub";
@@ -34,6 +39,7 @@ struct TankSpec : Written {
   TankShapeSpec shape;
   double propellant = 0.0;        // [kg] everything in it, slosh included
   std::optional<double> density;  // [kg/m^3]
+  DepletionSpec depletion;
 };
 
 const Table<TankSpec>& tank_table();

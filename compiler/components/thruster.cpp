@@ -36,7 +36,8 @@ const Table<ThrusterSpec>& thruster_table() {
       {
           required("name", &ThrusterSpec::name, name(), "Unique in the file."),
           optional("mount", &ThrusterSpec::mount, reference_to("body"), "What it pushes."),
-          optional("position", &ThrusterSpec::position, vector3("m"), "Where the force acts."),
+          optional("position", &ThrusterSpec::position, vector3("m"),
+                   "Where the force acts, and where the propellant leaves the vehicle."),
           required("direction", &ThrusterSpec::direction, direction(),
                    "Of the force on the vehicle: against the exhaust."),
           required("thrust", &ThrusterSpec::thrust, schedule("N", Range::kNotNegative),
@@ -55,11 +56,16 @@ Schedule thrust_of(const ThrusterSpec& thruster) {
   return thruster.during ? thruster.thrust.during(*thruster.during) : thruster.thrust;
 }
 
+/// Of one thruster [kg/s]. @pre it has `isp`
+static Schedule mass_flow_of(const ThrusterSpec& thruster) {
+  return thrust_of(thruster).scaled(1.0 / (kStandardGravity * thruster.isp.value()));
+}
+
 Schedule mass_flow_of(const std::vector<ThrusterSpec>& thrusters, const std::string& tank) {
   Schedule flow;
   for (const ThrusterSpec& thruster : thrusters) {
     if (thruster.tank != tank) continue;
-    flow = flow + thrust_of(thruster).scaled(1.0 / (kStandardGravity * thruster.isp.value()));
+    flow = flow + mass_flow_of(thruster);
   }
   return flow;
 }
@@ -86,7 +92,8 @@ void check(const ThrusterSpec& thruster, const Names& names, Diagnostics& diagno
 
 void check_depletion(const TankSpec& spec, const std::vector<ThrusterSpec>& thrusters,
                      double duration, Diagnostics& diagnostics) {
-  const Tank tank{spec.name, spec.propellant, mass_flow_of(thrusters, spec.name)};
+  const Tank tank{spec.name, spec.propellant, mass_flow_of(thrusters, spec.name),
+                  spec.depletion.momentum};
   const double left = tank.content_at(duration);
   if (left > 0.0) return;
   Diagnostic& error = diagnostics.error(
@@ -114,7 +121,15 @@ void lower(const ThrusterSpec& spec, ModelBuilder& builder) {
     if (spec.direction[i] == 0.0) continue;
     load.force_L.at(static_cast<std::size_t>(i)) = thrust.scaled(spec.direction[i]);
   }
-  builder.add_load(builder.find_mount(spec.mount), std::move(load));
+  const Mount mount = builder.find_mount(spec.mount);
+  builder.add_load(mount, std::move(load));
+  if (!spec.tank) return;
+  Nozzle nozzle;
+  nozzle.name = spec.name;
+  nozzle.tank = builder.find_tank(*spec.tank);
+  nozzle.r_PL_L = spec.position;
+  nozzle.mass_flow = mass_flow_of(spec);
+  builder.add_nozzle(mount, std::move(nozzle));
 }
 
 }  // namespace twincraft

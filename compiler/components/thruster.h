@@ -1,5 +1,5 @@
 // A thruster: a force fixed in the axes of its mount, and propellant that leaves the tank with
-// mdot = F / (g0 Isp). The propellant takes no momentum along but the thrust.
+// mdot = F / (g0 Isp). What momentum the propellant takes along besides the thrust, its tank says.
 // Tested by tests/compiler/propellant_test.cpp.
 #pragma once
 
@@ -39,7 +39,7 @@ void check(const ThrusterSpec& thruster, const Names& names, Diagnostics& diagno
 void check_depletion(const TankSpec& tank, const std::vector<ThrusterSpec>& thrusters,
                      double duration, Diagnostics& diagnostics);
 
-/// The force; the flow goes with the tank.
+/// The force, and where the flow leaves the vehicle. @pre the tanks were lowered
 void lower(const ThrusterSpec& thruster, ModelBuilder& builder);
 
 }  // namespace twincraft

@@ -142,6 +142,7 @@ struct Model {
   std::vector<Coordinate> coordinates;
   std::vector<Load> loads;
   std::vector<Tank> tanks;
+  std::vector<Nozzle> nozzles;  // of the tanks whose propellant leaves as a jet, and only those
   Gravity gravity;
   InitialState initial;
   SimulationPlan simulation;

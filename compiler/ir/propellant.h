@@ -4,6 +4,7 @@
 // is; both engines read it. Tested by tests/compiler/ir_test.cpp.
 #pragma once
 
+#include <Eigen/Core>
 #include <string>
 #include <vector>
 
@@ -14,14 +15,29 @@ namespace twincraft {
 /// Standard gravity, which turns a specific impulse in seconds into an exhaust speed.
 inline constexpr double kStandardGravity = 9.80665;  // [m/s^2]
 
+/// What propellant takes along besides the thrust. kNone: an element of a tank shrinks where it is,
+/// with the velocity it has there. kJet: it flows to the nozzle and leaves with the nozzle's
+/// velocity (runtime/forces/jet.h).
+enum class LeavingMomentum { kNone, kJet };
+
 struct Tank {
   std::string name;
   double content = 0.0;  // [kg] at t = 0, slosh included
   Schedule mass_flow;    // [kg/s] out of the tank
+  LeavingMomentum momentum = LeavingMomentum::kNone;
 
   /// The integral of the flow, exact for a schedule; nothing flows before t = 0 s.
   double content_at(double time) const;  // [kg]
   double share(double time) const { return content_at(time) / content; }
+};
+
+/// Where propellant of a tank leaves the vehicle.
+struct Nozzle {
+  std::string name;                                  // the thruster
+  int tank = 0;                                      // Model::tanks entry it draws from
+  int link = 0;                                      // what it is fixed on
+  Eigen::Vector3d r_PL_L = Eigen::Vector3d::Zero();  // [m] from the link's origin, link axes
+  Schedule mass_flow;                                // [kg/s]
 };
 
 }  // namespace twincraft

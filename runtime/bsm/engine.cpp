@@ -2,12 +2,15 @@
 #include "runtime/bsm/engine.h"
 
 #include <limits>
+#include <utility>
 
 #include "runtime/bsm/attitude.h"
 #include "runtime/bsm/books.h"
+#include "runtime/bsm/jet_kernel.h"
 #include "runtime/bsm/kernel.h"
 #include "runtime/bsm/motion.h"
 #include "runtime/bsm/point_mass_engine.h"
+#include "runtime/forces/jet.h"
 #include "runtime/forces/propellant_ledger.h"
 
 namespace twincraft {
@@ -31,12 +34,14 @@ class BsmEngine final : public Engine {
         propellant_(model.tanks),
         shares_(propellant_.shares(0.0)),
         forces_(model, model.gravity.bsm, elements_of(model.assembly), FieldFrame::kFalling),
+        jets_(model),
         layout_{model.engines.attitude, static_cast<int>(model.assembly.links.size()) - 1,
                 static_cast<int>(model.assembly.rotors.size())},
         held_(HeldInputs::none(model.assembly)),
         plan_(make_plan(model.assembly, model.engines.attitude, model.gravity, model.loads,
                         model.engines.chains)),
         kernel_(make_kernel(plan_, set)) {
+    if (!jets_.is_absent()) kernel_ = with_jets(std::move(kernel_), plan_, jets_);
     hold_inputs(0.0);
   }
 
@@ -67,6 +72,7 @@ class BsmEngine final : public Engine {
     held_.set(assembly_, loads_, time);
     forces_.hold(time);
     propellant_.hold(time);
+    jets_.hold(time);
     const Plan* plan = &plan_;
     const HeldInputs* held = &held_;
     kernel_->hold({&plan, 1}, {&held, 1});
@@ -111,6 +117,7 @@ class BsmEngine final : public Engine {
     const Vector3d v_BN_B = x.dcm_NB.transpose() * x.v_BN_N;
     std::vector<Wrench> wrenches(motion.poses.size());
     forces_.apply(r_BN_B, motion.poses, wrenches);
+    jets_.add(motion.poses, motion.rates, wrenches);
     const Vector3d g_N = forces_.fall(x.r_BN_N, x.dcm_NB, motion.poses);
     Vector3d force_B = Vector3d::Zero();
     Vector3d torque_PntC_B = Vector3d::Zero();
@@ -134,7 +141,8 @@ class BsmEngine final : public Engine {
                    0.5 * leaving.mass * v_CB_B.squaredNorm();
     }
     for (LinkRate& rate : motion.rates) rate.v_LN_W += v_BN_B;
-    power += forces_.power(r_BN_B, motion.poses, motion.rates);
+    power +=
+        forces_.power(r_BN_B, motion.poses, motion.rates) + jets_.power(motion.poses, motion.rates);
     return {power,
             x.dcm_NB * (force_B + leaving.momentum_B) + totals.mass * g_N + leaving.mass * x.v_BN_N,
             x.dcm_NB * (torque_PntC_B + leaving.H_PntC_B), own_power};
@@ -217,6 +225,7 @@ class BsmEngine final : public Engine {
   std::span<const double> shares_;
   double drained_to_ = 0.0;  // [s] the time the kernel's masses are of; NaN: of none
   ForceModel forces_;
+  JetModel jets_;
   StateLayout layout_;
   HeldInputs held_;
   Plan plan_;

@@ -16,6 +16,13 @@ struct Motion {
   std::vector<LinkRate> rates;
 };
 
+/// All links at the hub's place and at rest, to be moved one by one.
+Motion at_rest(const Tree& tree);
+
+/// Where link `i` is and how it moves, from its parent's entry. @pre i > 0
+void move_link(const Tree& tree, std::size_t i, std::span<const double> q,
+               std::span<const double> q_dot, Motion& motion);
+
 Motion motion_of(const Tree& tree, std::span<const double> q, std::span<const double> q_dot,
                  const Vector3d& omega_BN_B);
 

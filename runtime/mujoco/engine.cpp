@@ -22,6 +22,7 @@
 
 #include "compiler/ir/number.h"
 #include "runtime/forces/forces.h"
+#include "runtime/forces/jet.h"
 #include "runtime/forces/propellant_ledger.h"
 #include "runtime/mujoco/draining.h"
 #include "runtime/mujoco/exchange.h"
@@ -86,6 +87,7 @@ class MujocoEngine final : public Engine {
   MotionSums move_to(std::span<const double> state);
   void gather_poses();
   void gather_rates(const Vector3d& v_BN_N);
+  void gather_jet_rates();
   Vector3d project_forces(const Vector3d& r_BN_N, const Matrix3d& dcm_NW);
   double joint_power() const;
   std::vector<int> dof_order() const;
@@ -105,6 +107,7 @@ class MujocoEngine final : public Engine {
   DrainingBodies draining_;
   WrenchProjector projector_;
   ForceModel forces_;
+  JetModel jets_;
   std::vector<double> inputs_;   // held efforts and motor torques, per MuJoCo dof
   std::vector<double> applied_;  // inputs and projected wrenches
   std::vector<LinkPose> poses_;
@@ -127,6 +130,7 @@ MujocoEngine::MujocoEngine(const Model& model, const std::string& mjcf)
       draining_(model, *model_),
       projector_(*model_, map_),
       forces_(model, law_, gravity_elements(model), field_frame(model.engines.frame)),
+      jets_(model),
       inputs_(static_cast<std::size_t>(model_->nv)),
       applied_(inputs_.size()),
       poses_(model.assembly.links.size()),
@@ -156,6 +160,7 @@ void MujocoEngine::hold_inputs(double time) {
   }
   forces_.hold(time);
   propellant_.hold(time);
+  jets_.hold(time);
   drained_to_ = std::numeric_limits<double>::quiet_NaN();
   drain(time);
 }
@@ -179,6 +184,7 @@ void MujocoEngine::derivative(double time, std::span<const double> state, std::s
   mj_kinematics(m, d);
   align_round_wheels(round_wheels_, *d);
   mj_comPos(m, d);
+  mj_comVel(m, d);
   const double* applied = inputs_.data();
   Vector3d fall_N = Vector3d::Zero();
   if (law_ != GravityLaw::kNone || !forces_.is_idle()) {
@@ -187,7 +193,6 @@ void MujocoEngine::derivative(double time, std::span<const double> state, std::s
   }
   mj_crb(m, d);
   mj_factorM(m, d);
-  mj_comVel(m, d);
   mj_rne(m, d, 0, d->qfrc_bias);
   passive_.apply(*d);
   for (int i = 0; i < m->nv; ++i) d->qacc[i] = d->qfrc_passive[i] - d->qfrc_bias[i] + applied[i];
@@ -236,6 +241,11 @@ Vector3d MujocoEngine::project_forces(const Vector3d& r_BN_N, const Matrix3d& dc
   std::copy(inputs_.begin(), inputs_.end(), applied_.begin());
   if (!forces_.is_idle()) {
     forces_.apply(dcm_NW.transpose() * r_BN_N, poses_, wrenches_);
+    // A nozzle flows only while its thrust acts, so here alone.
+    if (jets_.acts()) {
+      gather_jet_rates();
+      jets_.add(poses_, link_rates_, wrenches_);
+    }
     projector_.add(*model_, *data_, wrenches_, applied_);
   }
   return forces_.fall(r_BN_N, dcm_NW, poses_);
@@ -291,9 +301,11 @@ ExternalRates MujocoEngine::external_rates(double time, std::span<const double> 
   gather_rates(v_BN_N);
   ExternalRates rates;
   rates.own_power = joint_power();
-  rates.power = rates.own_power + forces_.power(r_BN_N, poses_, link_rates_);
+  rates.power = rates.own_power + forces_.power(r_BN_N, poses_, link_rates_) +
+                jets_.power(poses_, link_rates_);
   std::ranges::fill(wrenches_, Wrench{});
   forces_.apply(r_BN_N, poses_, wrenches_);
+  jets_.add(poses_, link_rates_, wrenches_);
   for (const Wrench& wrench : wrenches_) {
     rates.force_N += wrench.force_W;
     rates.torque_PntC_N += wrench.torque_PntB_W;
@@ -323,6 +335,20 @@ void MujocoEngine::gather_rates(const Vector3d& v_BN_N) {
     const Twist twist = twist_of(*data_, map_.link_body[i]);
     link_rates_[i].omega_LN_W = twist.omega;
     link_rates_[i].v_LN_W = v_BN_N + twist.v_B + twist.omega.cross(poses_[i].r_LB_W);
+  }
+}
+
+// Relative to the hub origin, wherever the hub is placed; cvel is taken at the centre of mass of
+// the whole tree.
+void MujocoEngine::gather_jet_rates() {
+  const Input r_CO_W(data_->subtree_com + 3 * kHubBody);
+  const Input v_BO_W(data_->qvel);
+  for (const int link : jets_.links()) {
+    const auto i = static_cast<std::size_t>(link);
+    const int body = map_.link_body[i];
+    const Vector3d omega = Input(data_->cvel + 6 * body);
+    const Vector3d r_LC_W = Input(data_->xpos + 3 * body) - r_CO_W;
+    link_rates_[i] = {omega, Input(data_->cvel + 6 * body + 3) - v_BO_W + omega.cross(r_LC_W)};
   }
 }
 

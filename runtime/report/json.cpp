@@ -6,6 +6,7 @@
 
 #include "runtime/report/attribution_json.h"
 #include "runtime/report/resolution_json.h"
+#include "runtime/report/words.h"
 
 namespace twincraft {
 namespace {
@@ -176,6 +177,8 @@ Json member_json(const ReportedMember& member) {
             {"settings", settings_json(member.settings)},
             {"emitted_sha256", member.bundle.emitted_sha256},
             {"resolved", resolved_json(member.bundle)}};
+  const std::string depletion = depletion_words(member.bundle.model);
+  if (!depletion.empty()) json["depletion"] = depletion;
   for (const EngineRun& run : result.engines)
     json["engines"][run.name] = engine_json(member.bundle.model, run);
   json["agreement"] = result.comparison ? agreement_json(*result.comparison) : Json::object();

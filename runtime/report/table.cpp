@@ -50,7 +50,9 @@ bool is_worth_showing(const Metric& metric) {
 }  // namespace
 
 std::string heading(const Model& model) {
-  return fmt::format("{}   {}   {}\n\n", model.name, vehicle_words(model), plan_words(model));
+  const std::string depletion = depletion_words(model);
+  return fmt::format("{}   {}   {}\n{}{}\n", model.name, vehicle_words(model), plan_words(model),
+                     depletion, depletion.empty() ? "" : "\n");
 }
 
 std::string agreement_block(const ReportedMember& member, bool colour) {

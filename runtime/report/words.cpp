@@ -113,6 +113,20 @@ std::string plan_words(const Model& model) {
   return text;
 }
 
+std::string depletion_words(const Model& model) {
+  const double end = model.simulation.duration;
+  std::size_t draining = 0, jets = 0;
+  for (const Tank& tank : model.tanks) {
+    if (tank.content_at(end) == tank.content) continue;
+    ++draining;
+    if (tank.momentum == LeavingMomentum::kJet) ++jets;
+  }
+  if (draining == 0) return {};
+  if (jets == 0) return "propellant leaves without angular momentum: no jet damping";
+  if (jets == draining) return "propellant leaves with the nozzle's velocity: jet damping";
+  return fmt::format("jet damping from {} of {} draining tanks", jets, draining);
+}
+
 std::string quantity(double value, std::string_view unit) {
   const std::string number = value == 0.0 ? "0" : fmt::format("{:.1e}", value);
   return unit.empty() ? number : fmt::format("{} {}", number, unit);

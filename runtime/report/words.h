@@ -24,6 +24,9 @@ std::string span_words(double seconds);
 /// `120 s, rk4 at 0.02 s, no gravity`
 std::string plan_words(const Model& model);
 
+/// What the propellant that leaves takes along; empty when no tank drains during the run.
+std::string depletion_words(const Model& model);
+
 /// `3.1e-13 deg`; an exact zero is `0 deg`.
 std::string quantity(double value, std::string_view unit);
 

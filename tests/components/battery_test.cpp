@@ -154,7 +154,7 @@ TEST_P(Truncation, LeavesTheBooksToFourthOrder) {
 INSTANTIATE_TEST_SUITE_P(Components, Battery,
                          testing::Values("hub", "wheel", "panel", "chain", "damped", "gravity",
                                          "arm", "arm_in_orbit", "flex_as_bodies", "particle",
-                                         "pendulum", "bob", "burn"),
+                                         "pendulum", "bob", "burn", "jet"),
                          [](const auto& param_info) { return param_info.param; });
 
 INSTANTIATE_TEST_SUITE_P(Components, Truncation,

@@ -133,7 +133,7 @@ function compose() {
   const put = (/** @type {string} */ id, /** @type {string} */ text) => { /** @type {HTMLElement} */ (document.getElementById(id)).textContent = text; };
   showVerdict();
   put("verdict-detail", verdictDetail());
-  put("setting", [page.vehicle, page.plan].join(" · "));
+  put("setting", [page.vehicle, page.plan, page.depletion].filter(Boolean).join(" · "));
   main.append(...[
     ...part("The study", () => page.is_study ? studySections() : []),
     ...part("Why they differ", () => [attributionSection()]),

@@ -64,6 +64,7 @@ std::string page_data(const Report& report) {
   Json json{{"description", model.description},
             {"vehicle", vehicle_words(model)},
             {"plan", plan_words(model)},
+            {"depletion", depletion_words(model)},
             {"words", words_json(report, shown)},
             {"is_study", report.study.has_value()},
             {"is_work_precision", report.study && report.study->is_work_precision},

@@ -1,0 +1,95 @@
+// See jet.h.
+#include "runtime/forces/jet.h"
+
+#include <algorithm>
+#include <set>
+
+namespace twincraft {
+namespace {
+
+/// k omega in working axes.
+Vector3d spin_of(const Matrix3d& k_L, const Matrix3d& dcm_WL, const Vector3d& omega_W) {
+  return dcm_WL * (k_L * (dcm_WL.transpose() * omega_W));
+}
+
+void push(const Vector3d& force, const Vector3d& r_B, Wrench& wrench) {
+  wrench.force_W += force;
+  wrench.torque_PntB_W += r_B.cross(force);
+}
+
+}  // namespace
+
+JetModel::JetModel(const Model& model) {
+  std::set<int> tanks, links;
+  for (const Nozzle& nozzle : model.nozzles) {
+    nozzles_.push_back({nozzle, 0.0});
+    tanks.insert(nozzle.tank);
+    links.insert(nozzle.link);
+  }
+  for (std::size_t i = 0; i < model.assembly.links.size(); ++i) {
+    for (const MassElement& e : model.assembly.links[i].elements) {
+      if (!tanks.contains(e.tank)) continue;
+      const int link = static_cast<int>(i);
+      const double content = model.tanks[static_cast<std::size_t>(e.tank)].content;
+      sources_.push_back({e.tank, link, e.mass / content, e.r_EL_L, e.I_PntE_L / e.mass});
+      links.insert(link);
+    }
+  }
+  links_.assign(links.begin(), links.end());
+  hold(0.0);
+}
+
+void JetModel::hold(double time) {
+  acts_ = false;
+  for (Outlet& outlet : nozzles_) {
+    outlet.flow = outlet.nozzle.mass_flow.at(time);
+    acts_ = acts_ || outlet.flow > 0.0;
+  }
+}
+
+JetModel::Point JetModel::point_of(int link, const Vector3d& r_L, std::span<const LinkPose> links,
+                                   std::span<const LinkRate> rates) {
+  const auto i = static_cast<std::size_t>(link);
+  const Vector3d r_W = links[i].dcm_WL * r_L;
+  return {links[i].r_LB_W + r_W, rates[i].v_LN_W + rates[i].omega_LN_W.cross(r_W)};
+}
+
+/// @param each  takes nozzle, source and the rate between them [kg/s]
+template <class Each>
+void JetModel::for_each_stream(const Each& each) const {
+  for (const Outlet& outlet : nozzles_) {
+    if (!(outlet.flow > 0.0)) continue;
+    for (const Source& source : sources_) {
+      if (source.tank == outlet.nozzle.tank) each(outlet.nozzle, source, source.part * outlet.flow);
+    }
+  }
+}
+
+void JetModel::add(std::span<const LinkPose> links, std::span<const LinkRate> rates,
+                   std::span<Wrench> wrenches) const {
+  for_each_stream([&](const Nozzle& nozzle, const Source& source, double mdot) {
+    const auto from = static_cast<std::size_t>(source.link);
+    const Point P = point_of(nozzle.link, nozzle.r_PL_L, links, rates);
+    const Point E = point_of(source.link, source.r_EL_L, links, rates);
+    const Vector3d force = -mdot * (P.v - E.v);
+    push(force, P.r_B, wrenches[static_cast<std::size_t>(nozzle.link)]);
+    push(force, E.r_B, wrenches[from]);
+    wrenches[from].torque_PntB_W +=
+        mdot * spin_of(source.k_L, links[from].dcm_WL, rates[from].omega_LN_W);
+  });
+}
+
+double JetModel::power(std::span<const LinkPose> links, std::span<const LinkRate> rates) const {
+  double sum = 0.0;
+  for_each_stream([&](const Nozzle& nozzle, const Source& source, double mdot) {
+    const auto from = static_cast<std::size_t>(source.link);
+    const Point P = point_of(nozzle.link, nozzle.r_PL_L, links, rates);
+    const Point E = point_of(source.link, source.r_EL_L, links, rates);
+    const Vector3d& omega = rates[from].omega_LN_W;
+    sum += mdot *
+           (omega.dot(spin_of(source.k_L, links[from].dcm_WL, omega)) - (P.v - E.v).dot(P.v + E.v));
+  });
+  return sum;
+}
+
+}  // namespace twincraft
