@@ -73,6 +73,40 @@ TEST(Thruster, PushesAndDrains) {
   EXPECT_DOUBLE_EQ(propellant.content_at(120.0), 1500.0 - 50.0 * flow);
 }
 
+TEST(Nozzle, IsWhereAThrusterOfAJetTankSits) {
+  const std::string wrist =
+      "bodies:\n  - {name: wrist, joint: {type: fixed, position: [0, 2, 0]}, orientation: {euler: "
+      "{sequence: zyx, angles: [90 deg, 0, 0]}}, mass: 1, inertia: [1, 1, 1]}\n";
+  const Trial trial(brick_with(wrist + tank(kSphere, ", depletion: {momentum: jet}") +
+                               "thrusters:\n" +
+                               engine(", mount: wrist, position: [1, 0, 0], tank: main, during: "
+                                      "[[10, 60]]") +
+                               "  - {name: cold, direction: [1, 0, 0], thrust: 1}\n"));
+  ASSERT_TRUE(trial.model) << testing::PrintToString(trial.faults());
+  ASSERT_EQ(trial.model->nozzles.size(), 1u);
+  const Nozzle& nozzle = trial.model->nozzles.at(0);
+  EXPECT_EQ(nozzle.name, "engine");
+  EXPECT_EQ(nozzle.tank, 0);
+  EXPECT_EQ(nozzle.link, 0);
+  EXPECT_LT((nozzle.r_PL_L - Vector3d(0.0, 3.0, 0.0)).norm(), 1e-15);
+  EXPECT_EQ(nozzle.mass_flow.at(9.0), 0.0);
+  EXPECT_EQ(nozzle.mass_flow.at(10.0), trial.model->tanks.at(0).mass_flow.at(10.0));
+}
+
+TEST(Nozzle, IsNoneOfATankWhosePropellantTakesNothingAlong) {
+  for (const std::string& depletion : {"", ", depletion: {momentum: none}", ", depletion: {}"}) {
+    const Trial trial(brick_with(tank(kSphere, depletion) + "thrusters:\n" +
+                                 engine(", tank: main, during: [[10, 60]]")));
+    ASSERT_TRUE(trial.model) << testing::PrintToString(trial.faults());
+    EXPECT_THAT(trial.model->nozzles, IsEmpty());
+  }
+}
+
+TEST(Nozzle, TakesNoOtherWord) {
+  const Trial trial(brick_with(tank(kSphere, ", depletion: {momentum: jets}")));
+  EXPECT_THAT(trial.codes(), ElementsAre(Code::kUnknownWord));
+}
+
 TEST(Thruster, OfNoTankDrainsNone) {
   const Trial trial(brick_with(tank(kSphere) + "thrusters:\n" + engine("")));
   ASSERT_TRUE(trial.model);

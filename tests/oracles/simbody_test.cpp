@@ -66,11 +66,13 @@ INSTANTIATE_TEST_SUITE_P(
                     "tests/components/vehicles/damped", "tests/components/vehicles/gravity",
                     "tests/components/vehicles/arm", "tests/components/vehicles/arm_in_orbit",
                     "tests/components/vehicles/particle", "tests/components/vehicles/pendulum",
-                    "tests/components/vehicles/bob", "tests/components/vehicles/burn"),
+                    "tests/components/vehicles/bob", "tests/components/vehicles/burn",
+                    "tests/components/vehicles/jet"),
     name_of);
 INSTANTIATE_TEST_SUITE_P(Models, Simbody,
                          testing::Values("models/quickstart", "models/gallery/branched_arm",
-                                         "models/nesc/case_10a", "models/paper/orbit_extended",
+                                         "models/gallery/jet_damping", "models/nesc/case_10a",
+                                         "models/paper/orbit_extended",
                                          "models/paper/variable_mass", "models/paper/flex_panels"),
                          name_of);
 

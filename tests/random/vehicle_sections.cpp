@@ -155,6 +155,12 @@ void Sections::tanks() {
                                     : std::numbers::pi * radius * radius * length;
     maybe(
         tank, "density", [&] { return 1.1 * propellant / volume; }, 0.3);
+    maybe(
+        tank, "depletion",
+        [&]() -> Json {
+          return {{"momentum", draw_.one_of<std::string>({"none", "jet", "jet"})}};
+        },
+        0.6);
     tanks_.push_back({tank["name"], propellant, 0.6 * propellant});
     push("tanks", tank);
   }

@@ -338,6 +338,34 @@ TEST(Words, TellALongRunInDaysOrYears) {
   EXPECT_EQ(span_words(315569259.75), "10 years");
 }
 
+TEST(Words, SayWhatPropellantTakesAlong) {
+  Model model;
+  model.simulation.duration = 10.0;
+  const auto tank = [](const std::string& name, double flow, LeavingMomentum momentum) {
+    return Tank{name, 100.0, Schedule::constant(flow), momentum};
+  };
+  EXPECT_EQ(depletion_words(model), "");
+  model.tanks = {tank("shut", 0.0, LeavingMomentum::kJet)};
+  EXPECT_EQ(depletion_words(model), "");
+  model.tanks.push_back(tank("plain", 1.0, LeavingMomentum::kNone));
+  EXPECT_EQ(depletion_words(model), "propellant leaves without angular momentum: no jet damping");
+  model.tanks.push_back(tank("jet", 1.0, LeavingMomentum::kJet));
+  EXPECT_EQ(depletion_words(model), "jet damping from 1 of 2 draining tanks");
+  model.tanks.erase(model.tanks.begin() + 1);
+  EXPECT_EQ(depletion_words(model), "propellant leaves with the nozzle's velocity: jet damping");
+}
+
+TEST(Words, AreUnderTheHeadingAndInReportJsonWhereATankDrains) {
+  Report report = sound_report();
+  Model& model = report.members[0].bundle.model;
+  EXPECT_FALSE(json::parse(report_json(report))["members"][0].contains("depletion"));
+  EXPECT_THAT(heading(model), testing::EndsWith("no gravity\n\n"));
+  model.tanks = {{"main", 100.0, Schedule::constant(1.0)}};
+  const std::string words = "propellant leaves without angular momentum: no jet damping";
+  EXPECT_EQ(json::parse(report_json(report))["members"][0]["depletion"], words);
+  EXPECT_THAT(heading(model), testing::EndsWith("no gravity\n" + words + "\n\n"));
+}
+
 TEST(Words, GiveDurationsAUnitThatFits) {
   EXPECT_EQ(duration(6.2e-7), "620 ns");
   EXPECT_EQ(duration(3.6e-3), "3.6 ms");

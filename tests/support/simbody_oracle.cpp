@@ -59,6 +59,7 @@ class System {
                                                SimTK::SpatialVec(Vec3(0), Vec3(0)));
     add_gravity(law, at.r_BN_N, wrenches);
     add_loads(wrenches);
+    add_jets(wrenches);
     SimTK::Vector efforts(matter_.getNumMobilities(), 0.0), udot;
     add_efforts(at, efforts);
     SimTK::Vector_<SimTK::SpatialVec> unused;
@@ -158,6 +159,9 @@ class System {
   Vector3d in_N(std::size_t link, const Vector3d& r_L) const {
     return eigen(links_[link].findStationLocationInGround(state_, in_body(link, r_L)));
   }
+  Vector3d velocity(std::size_t link, const Vector3d& r_L) const {
+    return eigen(links_[link].findStationVelocityInGround(state_, in_body(link, r_L)));
+  }
   Vector3d turned(std::size_t link, const Vector3d& v_L) const {
     return eigen(links_[link].expressVectorInGroundFrame(state_, vec(v_L)));
   }
@@ -218,6 +222,27 @@ class System {
       }
       const Vector3d at = load.r_FL_L ? in_N(link, *load.r_FL_L) : center_of_mass();
       push(link, turned(link, force), at, turned(link, torque), wrenches);
+    }
+  }
+
+  /// Of every element that drains as a jet: half of the Coriolis force of its stream at either end,
+  /// and the turning that it gives back as it draws together.
+  void add_jets(SimTK::Vector_<SimTK::SpatialVec>& wrenches) const {
+    for (const Nozzle& nozzle : model_.nozzles) {
+      const auto out = static_cast<std::size_t>(nozzle.link);
+      const Tank& tank = model_.tanks[static_cast<std::size_t>(nozzle.tank)];
+      for (std::size_t link = 0; link < links_.size(); ++link) {
+        for (const MassElement& e : model_.assembly.links[link].elements) {
+          if (e.tank != nozzle.tank) continue;
+          const double flow = nozzle.mass_flow.at(time_) * e.mass / tank.content;
+          const Vector3d apart = velocity(out, nozzle.r_PL_L) - velocity(link, e.r_EL_L);
+          const Vector3d omega_L = eigen(links_[link].expressGroundVectorInBodyFrame(
+              state_, links_[link].getBodyAngularVelocity(state_)));
+          const Vector3d turning = turned(link, flow / e.mass * e.I_PntE_L * omega_L);
+          push(out, -flow * apart, in_N(out, nozzle.r_PL_L), Vector3d::Zero(), wrenches);
+          push(link, -flow * apart, in_N(link, e.r_EL_L), turning, wrenches);
+        }
+      }
     }
   }
 

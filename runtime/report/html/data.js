@@ -12,7 +12,7 @@
 /** @typedef {{joints: string[], wheels: string[], forces: Force[], gravity: boolean,
  *             point_mass: boolean,
  *             frames: {bsm?: string, mujoco?: string}}} Replay */
-/** @typedef {{description: string, vehicle: string, plan: string,
+/** @typedef {{description: string, vehicle: string, plan: string, depletion: string,
  *             words: Record<string, {label: string, unit: string}>, is_study: boolean,
  *             is_work_precision: boolean, members_run: number, members_planned: number,
  *             left_out?: Record<string, string>, report: any, histories: Histories, replay: Replay | null, mjcf: string,
