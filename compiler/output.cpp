@@ -48,86 +48,89 @@ std::string write_bytes(std::string_view bytes) {
   return error == 0 ? std::string() : fault(std::string("standard output"), error);
 }
 
-/// A file under a temporary name; removed again unless it was published.
-class PendingFile {
- public:
-  explicit PendingFile(const OutputFile& file) : target_(file.path) {
-    error_ = make_folder();
-    if (error_.empty()) error_ = write(file.text);
-  }
-  PendingFile(PendingFile&& other) noexcept
-      : target_(std::move(other.target_)),
-        temporary_(std::exchange(other.temporary_, {})),
-        error_(std::move(other.error_)) {}
-  PendingFile& operator=(PendingFile&&) = delete;
-  ~PendingFile() {
-    if (!temporary_.empty()) ::unlink(temporary_.c_str());
-  }
-
-  const std::string& error() const { return error_; }
-
-  /// @return empty, or why the file cannot have its name
-  std::string publish() {
-    if (::rename(temporary_.c_str(), target_.c_str()) != 0) return fault(target_, errno);
-    temporary_.clear();
-    return {};
-  }
-
- private:
-  std::string make_folder() const {
-    std::error_code error;
-    if (target_.has_parent_path()) fs::create_directories(target_.parent_path(), error);
-    if (error) return fault(target_.parent_path(), error.value());
-    if (fs::is_directory(target_, error)) return fault(target_, EISDIR);
-    return {};
-  }
-
-  /// Another run may write to the same folder, so the name is tried until it is new.
-  int open_temporary() {
-    constexpr int kTries = 100;
-    for (int i = 0; i < kTries; ++i) {
-      const fs::path candidate =
-          target_.parent_path() /
-          fmt::format(".{}.{}-{}.tmp", target_.filename().string(), ::getpid(), i);
-      const int descriptor =
-          ::open(candidate.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-      if (descriptor >= 0) temporary_ = candidate;
-      if (descriptor >= 0 || errno != EEXIST) return descriptor;
-    }
-    return -1;
-  }
-
-  std::string write(const std::string& text) {
-    const int descriptor = open_temporary();
-    if (descriptor < 0) return fault(target_, errno);
-    int error = write_all(descriptor, text);
-    if (error == 0 && ::fsync(descriptor) != 0) error = errno;
-    if (::close(descriptor) != 0 && error == 0) error = errno;
-    return error == 0 ? std::string() : fault(target_, error);
-  }
-
-  fs::path target_;
-  fs::path temporary_;
-  std::string error_;
-};
-
 }  // namespace
+
+PendingFile::PendingFile(fs::path path) : target_(std::move(path)) {
+  error_ = make_folder();
+  if (error_.empty()) open();
+}
+
+PendingFile::PendingFile(PendingFile&& other) noexcept
+    : target_(std::move(other.target_)),
+      temporary_(std::exchange(other.temporary_, {})),
+      descriptor_(std::exchange(other.descriptor_, -1)),
+      error_(std::move(other.error_)) {}
+
+PendingFile::~PendingFile() {
+  close();
+  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+}
+
+std::string PendingFile::make_folder() const {
+  std::error_code error;
+  if (target_.has_parent_path()) fs::create_directories(target_.parent_path(), error);
+  if (error) return fault(target_.parent_path(), error.value());
+  if (fs::is_directory(target_, error)) return fault(target_, EISDIR);
+  return {};
+}
+
+/// Another run may write to the same folder, so the name is tried until it is new.
+void PendingFile::open() {
+  constexpr int kTries = 100;
+  for (int i = 0; i < kTries; ++i) {
+    fs::path candidate = target_.parent_path() /
+                         fmt::format(".{}.{}-{}.tmp", target_.filename().string(), ::getpid(), i);
+    descriptor_ = ::open(candidate.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (descriptor_ >= 0) temporary_ = std::move(candidate);
+    if (descriptor_ >= 0 || errno != EEXIST) break;
+  }
+  if (descriptor_ < 0) error_ = fault(target_, errno);
+}
+
+void PendingFile::close() {
+  if (descriptor_ < 0) return;
+  if (::close(std::exchange(descriptor_, -1)) != 0 && error_.empty())
+    error_ = fault(target_, errno);
+}
+
+void PendingFile::append(std::string_view text) {
+  if (!error_.empty()) return;
+  if (const int error = write_all(descriptor_, text); error != 0) error_ = fault(target_, error);
+}
+
+void PendingFile::finish() {
+  if (descriptor_ >= 0 && error_.empty() && ::fsync(descriptor_) != 0)
+    error_ = fault(target_, errno);
+  close();
+}
+
+std::string PendingFile::publish() {
+  if (::rename(temporary_.c_str(), target_.c_str()) != 0) return fault(target_, errno);
+  temporary_.clear();
+  return {};
+}
+
+std::string publish(std::vector<PendingFile>& files) {
+  for (PendingFile& file : files)
+    if (std::string error = file.publish(); !error.empty()) return error;
+  return {};
+}
 
 std::string write_files(const std::vector<OutputFile>& files) {
   std::vector<PendingFile> pending;
   for (const OutputFile& file : files) {
-    pending.emplace_back(file);
+    pending.emplace_back(file.path);
+    pending.back().append(file.text);
+    pending.back().finish();
     if (!pending.back().error().empty()) return pending.back().error();
   }
-  for (PendingFile& file : pending) {
-    if (std::string error = file.publish(); !error.empty()) return error;
-  }
-  return {};
+  return publish(pending);
 }
 
 std::string try_files(const std::vector<std::string>& paths) {
   for (const std::string& path : paths) {
-    const PendingFile attempt({path, {}});  // removed again, as it is not published
+    PendingFile attempt(path);  // removed again, as it is not published
+    attempt.finish();
     if (!attempt.error().empty()) return attempt.error();
   }
   return {};

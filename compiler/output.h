@@ -4,16 +4,53 @@
 // Tested by tests/compiler/output_test.cpp.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace twincraft {
 
+/// A file that is written as its contents come, under a temporary name until it is published;
+/// removed again when it is not.
+class PendingFile {
+ public:
+  /// Folders that do not exist are made.
+  explicit PendingFile(std::filesystem::path path);
+  PendingFile(PendingFile&& other) noexcept;
+  PendingFile& operator=(PendingFile&&) = delete;
+  ~PendingFile();
+
+  void append(std::string_view text);
+  /// All of it is on the disk.
+  void finish();
+  /// Gives the file its name. @pre finished without an error
+  /// @return empty, or why it cannot have it
+  std::string publish();
+
+  /// Empty, or what went wrong first; nothing is done after that.
+  const std::string& error() const { return error_; }
+  /// Where the contents are meanwhile, for libraries that write by themselves.
+  const std::filesystem::path& temporary() const { return temporary_; }
+  const std::filesystem::path& target() const { return target_; }
+
+ private:
+  std::string make_folder() const;
+  void open();
+  void close();
+
+  std::filesystem::path target_, temporary_;
+  int descriptor_ = -1;
+  std::string error_;
+};
+
 struct OutputFile {
   std::string path;
   std::string text;
 };
+
+/// Gives finished files their names. @return as write_files
+std::string publish(std::vector<PendingFile>& files);
 
 /// Write all of them or none; folders that do not exist are made.
 /// @return empty, or what went wrong: "cannot write `out/a.xml`: no space left on device"

@@ -289,12 +289,13 @@ std::size_t count_values(const Node& node) {
 
 /// What is wrong with the members beyond what is wrong with the spec itself, each fault once.
 void check_members(const StudyOfSpec& study, std::size_t coordinates, Span span,
-                   Diagnostics& diagnostics) {
+                   const CompileRequest& request, Diagnostics& diagnostics) {
   const std::size_t members = study.plan().members;
   const std::size_t work = count_values(study.base()) + 10 * coordinates;
   const std::size_t checked =
       std::min({members, kCheckedMembers, std::max<std::size_t>(1, kCheckedWork / work)});
   for (std::size_t i = 0; i < checked; ++i) {
+    if (request.progress) request.progress(i, checked);
     Diagnostics of_member;
     study.check(i, of_member);
     for (const Diagnostic& fault : of_member.all()) {
@@ -328,13 +329,14 @@ CompileResult compile(const CompileRequest& request, Sources& sources, Diagnosti
   if (const std::optional<StudySpec>& spec = compiled->spec.study) {
     auto study = std::make_unique<StudyOfSpec>(*root, members_of(*spec, diagnostics).value(),
                                                changes, origin);
-    check_members(*study, compiled->model.coordinates.size(), spec->span(), diagnostics);
+    check_members(*study, compiled->model.coordinates.size(), spec->span(), request, diagnostics);
     if (diagnostics.has_errors()) return {};
     result.study = std::move(study);
   }
   require_one_machine(compiled->model);
   result.variants = std::make_unique<VariantsOfSpec>(*root, changes, origin, sources);
   result.step = compiled->spec.simulation.span_of("step");
+  result.record_span = compiled->spec.simulation.span_of("record");
   result.bundle = emit(std::move(compiled->model), compiled->spec, origin, changes);
   return result;
 }

@@ -2,6 +2,7 @@
 // Tested by tests/compiler/pipeline_test.cpp, tests/golden and tests/malformed.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -18,6 +19,8 @@ struct CompileRequest {
   std::string file;                      // as given; `-` is standard input
   std::vector<std::string> overrides;    // `PATH=VALUE`
   std::optional<std::string> text = {};  // of the spec, when it is no file; `file` is its name then
+  // Called before each member of a study that is checked: how many are done, and of how many.
+  std::function<void(std::size_t done, std::size_t planned)> progress = {};
 };
 
 /// The members of a study, each compiled when it is asked for; none is kept. Lives no longer than
@@ -56,6 +59,7 @@ struct CompileResult {
   std::unique_ptr<const Study> study = {};  // when the spec has one
   std::unique_ptr<const Variants> variants = {};  // with the bundle
   Span step = {};                                 // where the spec gives the step, with the bundle
+  Span record_span = {};  // where `simulation.record` is written, or what stands for it
 };
 
 /// The compiler contradicts itself: a bug of ours, with a text that asks to report it.

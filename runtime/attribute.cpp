@@ -29,6 +29,7 @@ std::string wrapped(std::string_view text, std::size_t width) {
 
 void describe(CLI::App& app, CommonOptions& options) {
   describe_input(app, options, "report.json and report.html");
+  describe_instructions(app, options);
   describe_jobs(app, options, "variants at a time (default: all cores)");
   describe_talk(app, options);
   app.set_help_flag("-h,--help", "print this");
@@ -90,7 +91,8 @@ std::vector<VariantResult> run_variants(const Variants& variants, const Subject&
   OrderedWork<VariantResult> plan;
   plan.count = changes.size();
   plan.work = [&](std::size_t index) {
-    return result_of(subject, run_one(compile_variant(variants, changes[index]), quiet).result);
+    return result_of(subject,
+                     run_one(compile_variant(variants, changes[index]), quiet).member.result);
   };
   plan.deliver = [&](VariantResult result) {
     results.push_back(std::move(result));
@@ -155,8 +157,8 @@ int explain(CompileResult compiled, const CommonOptions& options) {
   ProgressBar bar(stderr);
   RunOptions run = watched_run(options, bar);
   run.trials = 0;
-  Report report{provenance(), {}};
-  report.members.push_back(run_one(without_references(std::move(compiled.bundle)), run));
+  Report report{provenance_of(options), {}};
+  report.members.push_back(run_one(without_references(std::move(compiled.bundle)), run).member);
   const ReportedMember& member = report.members.front();
   bar.clear();
   int code = check_flown(member.result);
@@ -188,6 +190,9 @@ int attribute_command(int argc, char** argv) {
   Sources sources;
   CompileResult compiled;
   if (const int code = compile_spec(options, sources, compiled); code != kExitDone) return code;
+  // The run itself and a variant per job, of both engines.
+  const int code_of_memory = check_memory(compiled, 2.0 * (1.0 + jobs_of(options)), options);
+  if (code_of_memory != kExitDone) return code_of_memory;
   if (const int code = check_writable(report_files(options)); code != kExitDone) return code;
   return explain(std::move(compiled), options);
 }

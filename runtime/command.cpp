@@ -6,14 +6,18 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <thread>
 
 #include "compiler/diag/print.h"
+#include "compiler/ir/number.h"
 #include "compiler/output.h"
+#include "runtime/bsm/kernel.h"
+#include "runtime/estimate.h"
 #include "runtime/interrupt.h"
-#include "runtime/report/html/document.h"
-#include "runtime/report/json.h"
+#include "runtime/output_folder.h"
+#include "runtime/report_files.h"
 
 namespace twincraft {
 namespace {
@@ -46,6 +50,30 @@ bool overlap(const std::string& a, const std::string& b) {
   return a == b || a.starts_with(b + ".") || b.starts_with(a + ".");
 }
 
+using bsm::InstructionSet;
+
+constexpr std::array<std::pair<std::string_view, InstructionSet>, 3> kInstructionSets{{
+    {"portable", InstructionSet::kPortable},
+    {"avx2", InstructionSet::kAvx2},
+    {"avx512", InstructionSet::kAvx512},
+}};
+
+InstructionSet instructions_of(std::string_view isa) {
+  for (const auto& [word, set] : kInstructionSets)
+    if (word == isa) return set;
+  return bsm::best_instruction_set();
+}
+
+/// Empty, or that this processor lacks it.
+std::string check_processor(const std::string& isa) {
+  if (instructions_of(isa) <= bsm::best_instruction_set()) return {};
+  std::string has;
+  for (const auto& [word, set] : kInstructionSets)
+    if (set <= bsm::best_instruction_set())
+      has += fmt::format("{}{}", has.empty() ? "" : ", ", word);
+  return fmt::format("this processor has no `{}`; it has {}", isa, has);
+}
+
 }  // namespace
 
 void describe_input(CLI::App& app, CommonOptions& options, std::string_view files) {
@@ -67,6 +95,14 @@ void describe_jobs(CLI::App& app, CommonOptions& options, const std::string& mea
   app.add_option("--jobs", options.jobs, meaning)
       ->type_name("N")
       ->check(CLI::Range(1, 1024).description(""));
+}
+
+void describe_instructions(CLI::App& app, CommonOptions& options) {
+  app.add_option("--isa", options.isa,
+                 "instructions of the analytic engine: auto (default), portable, avx2, avx512")
+      ->type_name("SET")
+      ->check(one_of({"auto", "portable", "avx2", "avx512"}))
+      ->check(CLI::Validator([](std::string& isa) { return check_processor(isa); }, ""));
 }
 
 void describe_talk(CLI::App& app, CommonOptions& options) {
@@ -124,6 +160,7 @@ int print_diagnostics(const Diagnostics& diagnostics, const CommonOptions& optio
 RunOptions watched_run(const CommonOptions& options, ProgressBar& bar) {
   RunOptions run;
   run.stop = &watch_for_interrupts();
+  run.instructions = instructions_of(options.isa);
   if (shows_progress(options))
     run.progress = [&bar](std::string_view phase, double fraction) { bar.show(phase, fraction); };
   return run;
@@ -134,9 +171,22 @@ int jobs_of(const CommonOptions& options) {
   return options.jobs > 0 ? options.jobs : cores;
 }
 
+Provenance provenance_of(const CommonOptions& options) {
+  Provenance made = provenance();
+  made.instructions = bsm::name_of(instructions_of(options.isa));
+  return made;
+}
+
 int compile_spec(const CommonOptions& options, Sources& sources, CompileResult& result) {
   Diagnostics diagnostics;
-  result = compile(options.request, sources, diagnostics);
+  ProgressBar bar(stderr);
+  CompileRequest request = options.request;
+  if (shows_progress(options))
+    request.progress = [&bar](std::size_t done, std::size_t planned) {
+      bar.show("check", static_cast<double>(done) / static_cast<double>(planned));
+    };
+  result = compile(request, sources, diagnostics);
+  bar.clear();
   if (!result.io_error.empty()) {
     complain(result.io_error);
     return kExitInputOutput;
@@ -144,6 +194,32 @@ int compile_spec(const CommonOptions& options, Sources& sources, CompileResult& 
   judge_warnings(options.warnings, diagnostics);
   if (const int code = print_diagnostics(diagnostics, options); code != kExitDone) return code;
   return result.bundle && !diagnostics.has_errors() ? kExitDone : kExitFindings;
+}
+
+int check_memory(const CompileResult& compiled, double trajectories, const CommonOptions& options) {
+  const Model& model = compiled.bundle->model;
+  const double needed = trajectories * trajectory_bytes(model);
+  if (needed <= kMostMemory) return kExitDone;
+  Diagnostics diagnostics;
+  diagnostics
+      .error(
+          Code::kTooManySteps, compiled.record_span,
+          fmt::format("{:.3g} samples of {} trajectories, which this analysis keeps, take {}, "
+                      "more than {}",
+                      samples_of(model), trajectories, size_words(needed), size_words(kMostMemory)))
+      .with_hint(fmt::format("raise `simulation.record` to {} s or more",
+                             shortest(record_that_fits(model, trajectories))));
+  const int printed = print_diagnostics(diagnostics, options);
+  return printed != kExitDone ? printed : kExitFindings;
+}
+
+int check_disk(const Model& model, double bytes, const CommonOptions& options) {
+  if (options.folder.empty()) return kExitDone;
+  const std::string error = check_room(options.folder, bytes, free_bytes(options.folder),
+                                       std::max(model.simulation.record, model.simulation.step));
+  if (error.empty()) return kExitDone;
+  complain(error);
+  return kExitInputOutput;
 }
 
 std::vector<std::string> report_files(const CommonOptions& options) {
@@ -160,11 +236,14 @@ int check_writable(const std::vector<std::string>& files) {
 }
 
 int write_report(const Report& report, const CommonOptions& options) {
-  const std::vector<std::string> files = report_files(options);
-  if (files.empty()) return kExitDone;
-  const std::string error =
-      write_files({{files[0], report_json(report)}, {files[1], report_html(report)}});
-  if (error.empty()) return kExitDone;
+  if (options.folder.empty()) return kExitDone;
+  ReportFiles files(options.folder);
+  for (const ReportedMember& member : report.members) files.add(member);
+  const std::string error = files.write(report);
+  if (error.empty()) {
+    OutputFolder(options.folder).remove_leftovers();
+    return kExitDone;
+  }
   complain(error);
   return kExitInputOutput;
 }

@@ -21,6 +21,7 @@ struct CommonOptions {
   std::string step, integrator, duration;
   int jobs = 0;  // 0: as many as there are cores
   bool quiet = false;
+  std::string isa = "auto";
   std::string progress = "auto";
   std::string diagnostics = "text";
   std::vector<std::string> warnings;  // what stands after -W
@@ -30,6 +31,7 @@ struct CommonOptions {
 /// @param files  what is written into the folder
 void describe_input(CLI::App& app, CommonOptions& options, std::string_view files);
 void describe_jobs(CLI::App& app, CommonOptions& options, const std::string& meaning);
+void describe_instructions(CLI::App& app, CommonOptions& options);
 void describe_talk(CLI::App& app, CommonOptions& options);
 
 /// What the flags say by themselves: a code to explain, flags that exclude each other, no spec.
@@ -45,9 +47,17 @@ int print_diagnostics(const Diagnostics& diagnostics, const CommonOptions& optio
 /// The flags of a run with these options; progress goes to `bar` if it is to be seen.
 RunOptions watched_run(const CommonOptions& options, ProgressBar& bar);
 int jobs_of(const CommonOptions& options);
+/// Of a run with these options.
+Provenance provenance_of(const CommonOptions& options);
 
 /// Compile, and say what is wrong. @return an exit code, 0 with `result.bundle`
 int compile_spec(const CommonOptions& options, Sources& sources, CompileResult& result);
+
+/// Refuses, at `simulation.record`, what needs more memory than is sensible.
+/// @param trajectories  that are kept at a time @return the exit code
+int check_memory(const CompileResult& compiled, double trajectories, const CommonOptions& options);
+/// Refuses files for which the disk has no room. @param bytes  that they take, or more
+int check_disk(const Model& model, double bytes, const CommonOptions& options);
 
 /// What the report will be called; nothing without -o.
 std::vector<std::string> report_files(const CommonOptions& options);

@@ -9,12 +9,14 @@
 #include "compiler/output.h"
 #include "runtime/attribute.h"
 #include "runtime/command.h"
+#include "runtime/estimate.h"
 #include "runtime/interrupt.h"
+#include "runtime/member_files.h"
 #include "runtime/members.h"
-#include "runtime/report/csv.h"
-#include "runtime/report/netcdf.h"
+#include "runtime/outcome.h"
 #include "runtime/report/study_table.h"
 #include "runtime/report/table.h"
+#include "runtime/study/in_order.h"
 
 namespace twincraft {
 namespace {
@@ -39,6 +41,7 @@ void describe_run(CLI::App& app, Options& options) {
       ->type_name("N")
       ->check(CLI::Range(0, 1'000'000).description(""));
   app.add_flag("--no-timing", options.no_timing, "same as --trials 0");
+  describe_instructions(app, options);
   describe_jobs(app, options,
                 "members of a study at a time (default: all cores); timed ones run alone");
 }
@@ -56,18 +59,14 @@ void describe(CLI::App& app, Options& options) {
       "Example: scsim models/quickstart.yaml -o out --step '10 ms' --engine both");
 }
 
-RunOptions run_options(const Options& options, ProgressBar& bar) {
+/// @param compares_members  a trajectory is needed again when another member has been flown
+RunOptions run_options(const Options& options, bool compares_members, ProgressBar& bar) {
   RunOptions run = watched_run(options, bar);
   run.bsm = options.engine != "mujoco";
   run.mujoco = options.engine != "bsm";
   run.trials = options.trials;
+  run.keep_samples = compares_members;
   return run;
-}
-
-/// DIR, or DIR/0001 and so on: the first member's files lie beside the report.
-std::filesystem::path folder_of(std::size_t index, const Options& options) {
-  const std::filesystem::path folder(options.folder);
-  return index == 0 ? folder : folder / fmt::format("{:04}", index);
 }
 
 /// What is sure to be written: the report and the first member's trajectories; nothing without -o.
@@ -75,77 +74,28 @@ std::vector<std::string> first_files(const Options& options) {
   std::vector<std::string> files = report_files(options);
   if (files.empty()) return files;
   for (const char* name : {"bsm.csv", "mujoco.csv"})
-    files.push_back((folder_of(0, options) / name).string());
-  return files;
-}
-
-/// @return empty, or what went wrong
-std::string write_trajectories(std::size_t index, const ReportedMember& member,
-                               const Options& options) {
-  std::vector<OutputFile> files;
-  const std::filesystem::path folder = folder_of(index, options);
-  for (const EngineRun& run : member.result.engines) {
-    if (run.trajectory.samples.empty()) continue;
-    files.push_back({(folder / (run.name + ".csv")).string(),
-                     trajectory_csv(member.bundle.model, run.trajectory)});
-    if (options.netcdf)
-      files.push_back({(folder / (run.name + ".nc")).string(),
-                       trajectory_netcdf(member.bundle, run, provenance())});
-  }
-  return files.empty() ? std::string() : write_files(files);
-}
-
-/// The names of what is in the folder now.
-std::vector<std::string> written_files(const Report& report, const Options& options) {
-  std::vector<std::string> files{"report.json", "report.html"};
-  for (const EngineRun& run : report.members.front().result.engines) {
-    if (run.trajectory.samples.empty()) continue;
-    files.push_back(run.name + ".csv");
-    if (options.netcdf) files.push_back(run.name + ".nc");
-  }
-  if (report.members.size() == 2) files.emplace_back("0001/");
-  if (report.members.size() > 2)
-    files.push_back(fmt::format("0001/ to {:04}/", report.members.size() - 1));
+    files.push_back((std::filesystem::path(options.folder) / name).string());
   return files;
 }
 
 /// Files first: a reader of the report who leaves early must not cost the results.
-int deliver(const Report& report, const Options& options) {
-  const int written = write_report(report, options);
-  if (written == kExitDone && !options.folder.empty())
-    tell_written(written_files(report, options), options);
+int deliver(Outcome& outcome, const Options& options, const RunOptions& run, ProgressBar& bar) {
+  const int written = outcome.write([&run](double done) { run.show("write", done); });
+  bar.clear();
   if (!prints_report(options)) return written;
   const bool colour = wants_colour(STDOUT_FILENO);
+  const Report& report = outcome.report();
   const int printed = print(report.study ? study_table(report, colour)
                                          : report_table(report.members.front(), colour));
   return written != kExitDone ? written : printed;
 }
 
-/// Says what failed. @return how bad the worst member is
-int complain_of_failures(const Report& report) {
-  int code = kExitDone;
-  for (std::size_t i = 0; i < report.members.size(); ++i) {
-    const Member& member = report.members[i].result;
-    // What diverges in a work-precision study is a result, but not its reference or check.
-    const bool may_diverge =
-        report.study && report.study->is_work_precision && i + 2 < report.study->members;
-    const std::string which = report.study ? fmt::format("member {}: ", i) : "";
-    if (member.refused) complain(fmt::format("{}error: {}", which, member.engines[0].reason));
-    if (member.refused) code = std::max<int>(code, kExitFindings);
-    if (may_diverge || !member.failed()) continue;
-    for (const EngineRun& run : member.engines)
-      if (run.status == EngineRun::Status::kFailed)
-        complain(fmt::format("{}{} failed: {}", which, run.name, run.reason));
-    code = kExitFailure;
-  }
-  return code;
-}
-
-int exit_code(const Report& report) {
+int exit_code(const Outcome& outcome) {
   if (const int interrupted = interrupt_exit_code(); interrupted != 0) return interrupted;
-  const int failed = complain_of_failures(report);
+  const int failed = outcome.complain_of_failures();
   if (failed != kExitDone) return failed;
-  const Verdict verdict = report.verdict();
+  if (outcome.empty()) return kExitDone;
+  const Verdict verdict = outcome.report().verdict();
   const bool finds = verdict == Verdict::kDisagree || verdict == Verdict::kUnresolved;
   return finds ? kExitFindings : kExitDone;
 }
@@ -159,51 +109,86 @@ MemberSpec compile_member(const Study& study, std::size_t index) {
   return spec;
 }
 
-/// The whole study, or the spec as the one member there is.
-std::vector<ReportedMember> run_members(CompileResult& compiled, const Options& options,
-                                        const RunOptions& run, ProgressBar& bar,
-                                        std::string& write_error) {
-  const auto finished = [&](std::size_t index, const ReportedMember& member) {
-    if (compiled.study && run.progress)
-      bar.leave(member_line(index, member, compiled.study->plan()));
-    if (options.folder.empty() || !write_error.empty()) return;
-    write_error = write_trajectories(index, member, options);
+/// What member `index` writes; nothing without -o.
+std::unique_ptr<MemberOutput> output_of(std::size_t index, const Bundle& bundle,
+                                        const Options& options, Outcome& outcome) {
+  if (options.folder.empty()) return nullptr;
+  return std::make_unique<MemberFiles>(bundle, MemberFilesPlan{index, options.netcdf},
+                                       outcome.report().provenance, outcome.output());
+}
+
+void run_single(std::optional<Bundle> bundle, const Options& options, RunOptions run,
+                Outcome& outcome) {
+  run.side_by_side = jobs_of(options) > 1;
+  FlownMember flown = run_one({std::move(bundle), {}}, run, [&](const Bundle& flying) {
+    return output_of(0, flying, options, outcome);
+  });
+  if (flown.output) flown.output->publish(flown.member);
+  outcome.take(std::move(flown.member));
+}
+
+void run_members(const Study& study, const Options& options, const RunOptions& run,
+                 ProgressBar& bar, Outcome& outcome) {
+  StudyRun plan;
+  plan.plan = study.plan();
+  plan.compile = [&study](std::size_t index) { return compile_member(study, index); };
+  plan.output = [&](std::size_t index, const Bundle& bundle) {
+    return output_of(index, bundle, options, outcome);
   };
-  std::vector<ReportedMember> members;
-  if (!compiled.study) {
-    members.push_back(run_one({std::move(compiled.bundle), {}}, run));
-    finished(0, members.front());
-    return members;
-  }
-  const Study& study = *compiled.study;
-  return run_study(
-      {study.plan(), [&study](std::size_t index) { return compile_member(study, index); }, finished,
-       jobs_of(options)},
-      run);
+  plan.finished = [&](std::size_t index, ReportedMember member) {
+    if (run.progress) bar.leave(member_line(index, member, study.plan()));
+    outcome.take(std::move(member));
+  };
+  plan.jobs = jobs_of(options);
+  run_study(plan, run);
 }
 
 int simulate(CompileResult compiled, const Options& options) {
   ProgressBar bar(stderr, compiled.study ? 0.0 : compiled.bundle->model.simulation.duration);
-  const RunOptions run = run_options(options, bar);
-  std::string write_error;
-  Report report{provenance(), run_members(compiled, options, run, bar, write_error)};
+  std::optional<StudyPlan> plan;
+  if (compiled.study) plan = compiled.study->plan();
+  const RunOptions run = run_options(options, plan && plan->compare, bar);
+  Outcome outcome(options, std::move(plan));
+  if (compiled.study)
+    run_members(*compiled.study, options, run, bar, outcome);
+  else
+    run_single(std::move(compiled.bundle), options, run, outcome);
   bar.clear();
-  if (compiled.study) report.study = compiled.study->plan();
-  if (report.members.empty()) return exit_code(report);  // interrupted before the first
-  Options told = options;
-  if (!write_error.empty()) told.folder.clear();  // the table still is worth printing
-  const int delivered = deliver(report, told);
-  if (!write_error.empty()) {
-    complain(write_error);
-    return kExitInputOutput;
+  if (outcome.empty()) return exit_code(outcome);  // interrupted before the first
+  const int delivered = deliver(outcome, options, run, bar);
+  return delivered != kExitDone ? delivered : exit_code(outcome);
+}
+
+/// Trajectories that are in memory at a time, of both engines.
+double kept_trajectories(const StudyPlan& plan, int jobs) {
+  if (!plan.compare) return 0.0;
+  // Of a grid there is a baseline for each combination of the paths that change faster.
+  double baselines = 1.0;
+  for (std::size_t path = *plan.compare + 1; plan.is_grid && path < plan.lengths.size(); ++path)
+    baselines *= static_cast<double>(plan.lengths[path]);
+  return 2.0 * (baselines + (1.0 + kEarlyResults) * jobs);
+}
+
+/// Whether memory and disk hold what this run needs, said now. @return the exit code
+int check_resources(const CompileResult& compiled, const Options& options) {
+  const Model& model = compiled.bundle->model;
+  double members = 1.0;
+  if (compiled.study) {
+    const StudyPlan& plan = compiled.study->plan();
+    members = static_cast<double>(plan.members);
+    const int jobs = options.trials > 0 ? 1 : jobs_of(options);
+    const int code = check_memory(compiled, kept_trajectories(plan, jobs), options);
+    if (code != kExitDone) return code;
   }
-  return delivered != kExitDone ? delivered : exit_code(report);
+  const double engines = options.engine == "both" && model.mujoco_refusal.empty() ? 2.0 : 1.0;
+  return check_disk(model, members * engines * file_bytes(model, options.netcdf), options);
 }
 
 int compile_and_simulate(const Options& options) {
   Sources sources;
   CompileResult result;
   if (const int code = compile_spec(options, sources, result); code != kExitDone) return code;
+  if (const int code = check_resources(result, options); code != kExitDone) return code;
   if (const int code = check_writable(first_files(options)); code != kExitDone) return code;
   return simulate(std::move(result), options);
 }

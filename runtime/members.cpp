@@ -30,6 +30,9 @@ class Comparer {
     for (const EngineRun& run : member.result.engines)
       for (const EngineRun& first : kept_.at(baseline)) {
         if (first.name != run.name) continue;
+        if (first.status == EngineRun::Status::kFailed) against.failed.push_back(first.name);
+        if (first.status == EngineRun::Status::kFailed || run.status == EngineRun::Status::kFailed)
+          continue;  // what there is of a run that failed is no trajectory to be held against
         Comparison comparison = compare_hubs(member.bundle.model.simulation.translation,
                                              first.trajectory, run.trajectory);
         if (!comparison.metrics.empty())
@@ -44,34 +47,37 @@ class Comparer {
 
 }  // namespace
 
-ReportedMember run_one(MemberSpec spec, const RunOptions& options) {
-  if (!spec.bundle) return {{}, {}, refused_member(spec.refusal), {}};
+FlownMember run_one(MemberSpec spec, const RunOptions& options, const MakeOutput& make_output) {
+  if (!spec.bundle) return {{{}, {}, refused_member(spec.refusal)}, nullptr};
   Bundle& bundle = *spec.bundle;
-  Member result = run_member(bundle, options);
+  std::unique_ptr<MemberOutput> output = make_output ? make_output(bundle) : nullptr;
+  Member result = run_member(bundle, options, output.get());
+  options.show("write", 0.0);
+  if (output) output->land();
   std::vector<Setting> settings = bundle.settings;
-  return {std::move(bundle), std::move(settings), std::move(result), {}};
+  return {{std::move(bundle), std::move(settings), std::move(result)}, std::move(output)};
 }
 
-std::vector<ReportedMember> run_study(const StudyRun& study, const RunOptions& options) {
+void run_study(const StudyRun& study, const RunOptions& options) {
   RunOptions quiet = options;
   quiet.progress = nullptr;  // of members, not inside them
-  std::vector<ReportedMember> members;
-  OrderedWork<ReportedMember> plan;
+  std::size_t done = 0;
+  OrderedWork<FlownMember> plan;
   plan.count = study.plan.members;
-  plan.work = [&](std::size_t index) { return run_one(study.compile(index), quiet); };
-  Comparer comparer(study.plan);
-  plan.deliver = [&](ReportedMember member) {
-    comparer.see(members.size(), member);
-    study.finished(members.size(), member);
-    if (!members.empty()) member.shed();
-    members.push_back(std::move(member));
-    if (options.progress)
-      options.progress(
-          "members", static_cast<double>(members.size()) / static_cast<double>(study.plan.members));
+  plan.work = [&](std::size_t index) {
+    return run_one(study.compile(index), quiet,
+                   [&](const Bundle& bundle) { return study.output(index, bundle); });
   };
-  plan.may_go_on = [&options] { return options.stop == nullptr || !*options.stop; };
+  Comparer comparer(study.plan);
+  plan.deliver = [&](FlownMember flown) {
+    ReportedMember& member = flown.member;
+    comparer.see(done, member);
+    if (flown.output) flown.output->publish(member);
+    study.finished(done++, std::move(member));
+    options.show("members", static_cast<double>(done) / static_cast<double>(plan.count));
+  };
+  plan.may_go_on = [&options] { return !options.stopped(); };
   in_order(plan, options.trials > 0 ? 1 : study.jobs);
-  return members;
 }
 
 }  // namespace twincraft

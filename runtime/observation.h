@@ -26,7 +26,7 @@ struct Observation {
   double own_kinetic = 0.0;  // [J] about C
   double springs = 0.0;      // [J]
   Vector3d momentum;         // [kg m/s] in N
-  Vector3d H_PntC_N;       // [kg m^2/s] angular momentum about C
+  Vector3d H_PntC_N;         // [kg m^2/s] angular momentum about C
   // Sums of the magnitudes of what is added up (momentum: of the hub origin's velocity and of each
   // body's beyond it): what "relative" means for a total near zero.
   double momentum_scale = 0.0;

@@ -3,35 +3,42 @@
 
 #include <fmt/format.h>
 
+#include <array>
+#include <charconv>
 #include <cmath>
-#include <functional>
-
-#include "compiler/ir/number.h"
 #include "runtime/report/printed_time.h"
 
 namespace twincraft {
 namespace {
 
-struct Column {
-  std::string header;
-  std::function<double(const Observation&)> value;
-};
+/// A failed run may end in a sample that is no number.
+void append_cell(double value, std::string& text) {
+  if (!std::isfinite(value)) {
+    text += fmt::format("{}", value);
+    return;
+  }
+  std::array<char, 32> digits{};  // shortest(), without a string for each of millions
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
+  text.append(digits.data(), end);
+}
 
-void add_vector(const std::string& name, const std::string& unit, Vector3d Observation::*vector,
-                std::vector<Column>& columns) {
+}  // namespace
+
+void CsvLines::add_vector(const std::string& name, const std::string& unit,
+                          Vector3d Observation::*vector, std::vector<Column>& columns) {
   for (int i = 0; i < 3; ++i)
     columns.push_back({fmt::format("{}.{} [{}]", name, "xyz"[i], unit),
                        [vector, i](const Observation& sample) { return (sample.*vector)[i]; }});
 }
 
-void add_quaternion(std::vector<Column>& columns) {
+void CsvLines::add_quaternion(std::vector<Column>& columns) {
   columns.push_back({"q_BN.w [1]", [](const Observation& sample) { return sample.q_BN.w(); }});
   for (int i = 0; i < 3; ++i)
     columns.push_back({fmt::format("q_BN.{} [1]", "xyz"[i]),
                        [i](const Observation& sample) { return sample.q_BN.vec()[i]; }});
 }
 
-void add_coordinate(const Coordinate& coordinate, std::vector<Column>& columns) {
+void CsvLines::add_coordinate(const Coordinate& coordinate, std::vector<Column>& columns) {
   if (coordinate.kind == Coordinate::Kind::kWheel) {
     const auto wheel = static_cast<std::size_t>(coordinate.index);
     columns.push_back({coordinate.name + ".rate [rad/s]",
@@ -46,7 +53,7 @@ void add_coordinate(const Coordinate& coordinate, std::vector<Column>& columns) 
                      [joint](const Observation& sample) { return sample.joint_rate[joint]; }});
 }
 
-std::vector<Column> columns_of(const Model& model) {
+std::vector<CsvLines::Column> CsvLines::columns_of(const Model& model) {
   std::vector<Column> columns;
   columns.push_back({"t [s]", [printed = PrintedTime(model.simulation.step)](
                                   const Observation& sample) { return printed(sample.time); }});
@@ -61,22 +68,27 @@ std::vector<Column> columns_of(const Model& model) {
   return columns;
 }
 
-/// A failed run may end in a sample that is no number.
-std::string cell(double value) {
-  return std::isfinite(value) ? shortest(value) : fmt::format("{}", value);
+CsvLines::CsvLines(const Model& model) : columns_(columns_of(model)) {}
+
+std::string CsvLines::header() const {
+  std::string text;
+  for (const Column& column : columns_) (text += column.header) += ',';
+  text.back() = '\n';
+  return text;
 }
 
-}  // namespace
+void CsvLines::append(const Observation& sample, std::string& text) const {
+  for (const Column& column : columns_) {
+    append_cell(column.value(sample), text);
+    text += ',';
+  }
+  text.back() = '\n';
+}
 
 std::string trajectory_csv(const Model& model, const Trajectory& trajectory) {
-  const std::vector<Column> columns = columns_of(model);
-  std::string text;
-  const auto separator = [&](const Column& column) {
-    return &column == &columns.back() ? '\n' : ',';
-  };
-  for (const Column& column : columns) (text += column.header) += separator(column);
-  for (const Observation& sample : trajectory.samples)
-    for (const Column& column : columns) (text += cell(column.value(sample))) += separator(column);
+  const CsvLines lines(model);
+  std::string text = lines.header();
+  for (const Observation& sample : trajectory.samples) lines.append(sample, text);
   return text;
 }
 

@@ -121,6 +121,7 @@ Json agreement_json(const Comparison& comparison) {
 /// Without tolerances: one engine's two runs are not judged.
 Json against_json(const Baseline& against) {
   Json json{{"member", against.member}};
+  if (!against.failed.empty()) json["failed_baselines"] = against.failed;
   for (const Baseline::OfEngine& of : against.engines) {
     for (const Metric& metric : of.comparison.metrics)
       json[of.engine][metric.key] = {{"max", metric.maximum}, {"at_s", metric.at}};
@@ -213,8 +214,8 @@ Json trends_json(const std::vector<Trend>& trends, const char* x, const char* y,
   return json;
 }
 
-Json work_point_json(const WorkPoint& point, const Report& report) {
-  const std::vector<Setting>& settings = report.members[point.member].settings;
+Json work_point_json(const WorkPoint& point, const StudyPoints& members) {
+  const std::vector<Setting>& settings = members.all()[point.member].settings;
   Json json{{"member", point.member},
             {"settings", settings_json(settings)},
             {"diverged", point.diverged}};
@@ -227,14 +228,14 @@ Json work_point_json(const WorkPoint& point, const Report& report) {
   return json;
 }
 
-Json work_precision_json(const std::vector<EngineWork>& engines, const Report& report) {
+Json work_precision_json(const std::vector<EngineWork>& engines, const StudyPoints& members) {
   Json json = Json::object();
   for (const EngineWork& work : engines) {
     Json& engine = json[work.engine];
     engine["floor"] = {{"attitude_deg", work.floor.attitude}, {"position_m", work.floor.position}};
     engine["configurations"] = Json::array();
     for (const WorkPoint& point : work.points)
-      engine["configurations"].push_back(work_point_json(point, report));
+      engine["configurations"].push_back(work_point_json(point, members));
   }
   if (engines.size() != 2) return json;
   const Faster faster = compare_cost(engines[0], engines[1]);
@@ -247,7 +248,8 @@ Json studies_json(const Report& report) {
   if (!report.study) return json;
   const StudyResults results = study_results(report);
   if (report.study->is_work_precision) {
-    json["work_precision"] = work_precision_json(results.work_precision, report);
+    json["work_precision"] =
+        work_precision_json(results.work_precision, report.summary()->points());
     return json;
   }
   json["convergence"] = trends_json(results.convergence, "steps_s", "errors", "orders");
@@ -259,7 +261,10 @@ Json studies_json(const Report& report) {
 
 }  // namespace
 
-Json report_value(const Report& report) {
+namespace {
+
+/// The whole report but its members.
+Json frame_value(const Report& report) {
   Json json{{"format", "twincraft-report/1"},
             {"complete", report.complete()},
             {"verdict", verdict_name(report.verdict())},
@@ -267,8 +272,6 @@ Json report_value(const Report& report) {
             {"provenance", provenance_json(report.provenance)},
             {"members", Json::array()},
             {"studies", studies_json(report)}};
-  for (const ReportedMember& member : report.members)
-    json["members"].push_back(member_json(member));
   if (report.attribution) {
     json["attribution"] = attribution_json(*report.attribution);
     json["explanation"] =
@@ -277,8 +280,43 @@ Json report_value(const Report& report) {
   return json;
 }
 
+std::string text_of(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace
+
+Json report_value(const Report& report) {
+  Json json = frame_value(report);
+  for (const ReportedMember& member : report.members)
+    json["members"].push_back(member_json(member));
+  return json;
+}
+
+std::string report_member(const ReportedMember& member, bool is_first) {
+  std::string text = is_first ? "\n    " : ",\n    ";
+  // A line break in a text is written as such, so every one here is the printer's.
+  for (const char c : text_of(member_json(member))) {
+    text += c;
+    if (c == '\n') text += "    ";
+  }
+  return text;
+}
+
+ReportFrame report_frame(const Report& report) {
+  // A quote in a text is escaped, so this is the key itself.
+  constexpr std::string_view kPlace = "\n  \"members\": []";
+  const std::string text = text_of(frame_value(report)) + "\n";
+  const std::size_t end = text.find(kPlace) + kPlace.size() - 1;
+  return {text.substr(0, end), "\n  " + text.substr(end)};
+}
+
 std::string report_json(const Report& report) {
-  return report_value(report).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  const ReportFrame frame = report_frame(report);
+  std::string text = frame.before;
+  for (const ReportedMember& member : report.members)
+    text += report_member(member, &member == &report.members.front());
+  return text + frame.after;
 }
 
 }  // namespace twincraft

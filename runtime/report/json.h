@@ -9,8 +9,17 @@
 
 namespace twincraft {
 
-/// What the file holds, for printers that show it otherwise.
+/// What the file holds of `report.members`, for printers that show it otherwise.
 nlohmann::ordered_json report_value(const Report& report);
+
+/// A member as it stands in the file, with what separates it from the one before.
+std::string report_member(const ReportedMember& member, bool is_first);
+
+/// The file before its first member and after its last.
+struct ReportFrame {
+  std::string before, after;
+};
+ReportFrame report_frame(const Report& report);
 
 /// Metrics that do not apply are absent; numbers that are not finite are null.
 std::string report_json(const Report& report);

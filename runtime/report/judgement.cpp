@@ -25,12 +25,12 @@ std::string clause_of(const JudgedFigure& figure) {
   return fmt::format("an engine is further from `{}` than allowed", figure.reference);
 }
 
+}  // namespace
+
 bool judges_agreement(const Member& member) {
   return std::ranges::any_of(
       member.judged(), [](Of of) { return of == Of::kAgreement; }, &JudgedFigure::of);
 }
-
-}  // namespace
 
 std::string exceeded_words(const Member& member) {
   std::vector<std::string> clauses;
@@ -42,20 +42,14 @@ std::string exceeded_words(const Member& member) {
   return fmt::format("{}", fmt::join(clauses, "; "));
 }
 
-std::string exceeded_words(const Report& report) {
-  for (const ReportedMember& member : report.members)
-    if (std::string words = exceeded_words(member.result); !words.empty()) return words;
-  return {};
-}
+std::string exceeded_words(const Report& report) { return report.summary()->exceeded(); }
 
 std::string held_words(const Member& member) {
   return judges_agreement(member) ? "the engines agree" : "every tolerance held";
 }
 
 std::string held_words(const Report& report) {
-  const bool all = std::ranges::all_of(
-      report.members, [](const ReportedMember& one) { return judges_agreement(one.result); });
-  return all ? "the engines agree" : "every tolerance held";
+  return report.summary()->judges_agreement() ? "the engines agree" : "every tolerance held";
 }
 
 }  // namespace twincraft

@@ -13,6 +13,9 @@ std::string exceeded_words(const Member& member);
 /// Of the first member that broke any.
 std::string exceeded_words(const Report& report);
 
+/// One of its tolerances is of agreement.
+bool judges_agreement(const Member& member);
+
 /// `the engines agree`, or `every tolerance held` where agreement itself was not judged.
 std::string held_words(const Report& report);
 std::string held_words(const Member& member);

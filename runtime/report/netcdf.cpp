@@ -3,12 +3,12 @@
 
 #include <fmt/format.h>
 #include <netcdf.h>
-#include <netcdf_mem.h>
 
 #include <array>
-#include <cstdlib>
 #include <functional>
+#include <mutex>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "runtime/report/printed_time.h"
@@ -25,6 +25,7 @@ struct Variable {
   int components = 1;  // 1, 3 or 4
   std::function<double(const Observation&, int component)> value;
   int id = -1;
+  std::vector<double> waiting = {};  // of samples that are not yet in the file
 };
 
 Variable vector_variable(const char* name, const char* unit, const char* words,
@@ -77,10 +78,16 @@ std::vector<Variable> variables_of(const Model& model) {
   return variables;
 }
 
-/// A file in memory that is let go of on every way out.
+/// netCDF and HDF5 keep what they know of all files in one place: one thread at a time.
+std::mutex& library() {
+  static std::mutex mutex;
+  return mutex;
+}
+
+/// A file that is let go of on every way out.
 class File {
  public:
-  File() { check(nc_create_mem("trajectory.nc", NC_NETCDF4, 0, &id_)); }
+  explicit File(const std::string& path) { check(nc_create(path.c_str(), NC_NETCDF4, &id_)); }
   ~File() {
     if (open_) nc_abort(id_);
   }
@@ -99,13 +106,9 @@ class File {
     check(nc_put_att_text(id_, variable, name, text.size(), text.data()));
   }
 
-  std::string close() {
-    NC_memio memory{};
+  void close() {
     open_ = false;
-    check(nc_close_memio(id_, &memory));
-    std::string bytes(static_cast<const char*>(memory.memory), memory.size);
-    std::free(memory.memory);
-    return bytes;
+    check(nc_close(id_));
   }
 
  private:
@@ -113,14 +116,14 @@ class File {
   bool open_ = true;
 };
 
-void describe(const File& file, const Bundle& bundle, const EngineRun& run,
+void describe(const File& file, const Bundle& bundle, std::string_view engine,
               const Provenance& provenance) {
   const auto put = [&](const char* name, const std::string& text) {
     file.attribute(NC_GLOBAL, name, text);
   };
   put("title", bundle.model.name);
   put("summary", bundle.model.description);
-  put("engine", run.name);
+  put("engine", std::string(engine));
   put("spec_file", bundle.spec_file);
   put("spec_sha256", bundle.spec_sha256);
   put("source", provenance.program);
@@ -135,38 +138,93 @@ void describe(const File& file, const Bundle& bundle, const EngineRun& run,
   put("settings", settings);
 }
 
-void define(const File& file, std::vector<Variable>& variables, std::size_t samples) {
-  const int time = file.dimension("time", samples);
+/// How many samples go into the file at a time; a chunk of it holds as many.
+constexpr std::size_t kSamplesPerChunk = 1024;
+
+void define_variable(const File& file, int time, int components, Variable& variable) {
+  const std::array<int, 2> dimensions{time, components};
+  const int count = variable.components == 1 ? 1 : 2;
+  const auto width = static_cast<std::size_t>(variable.components);
+  check(nc_def_var(file.id(), variable.name.c_str(), NC_DOUBLE, count, dimensions.data(),
+                   &variable.id));
+  const std::array<std::size_t, 2> chunk{kSamplesPerChunk, width};
+  check(nc_def_var_chunking(file.id(), variable.id, NC_CHUNKED, chunk.data()));
+  check(nc_def_var_deflate(file.id(), variable.id, 1, 1, 1));
+  // A chunk is written once, so two in memory are enough; by default there are sixteen megabytes.
+  check(nc_set_var_chunk_cache(file.id(), variable.id,
+                               2 * kSamplesPerChunk * width * sizeof(double), 3, 1.0F));
+  file.attribute(variable.id, "units", variable.unit);
+  file.attribute(variable.id, "long_name", variable.words);
+}
+
+void define(const File& file, std::vector<Variable>& variables) {
+  const int time = file.dimension("time", NC_UNLIMITED);
   const int xyz = file.dimension("xyz", 3), wxyz = file.dimension("wxyz", 4);
-  for (Variable& variable : variables) {
-    const std::array<int, 2> dimensions{time, variable.components == 4 ? wxyz : xyz};
-    const int count = variable.components == 1 ? 1 : 2;
-    check(nc_def_var(file.id(), variable.name.c_str(), NC_DOUBLE, count, dimensions.data(),
-                     &variable.id));
-    if (samples > 0) check(nc_def_var_deflate(file.id(), variable.id, 1, 1, 1));
-    file.attribute(variable.id, "units", variable.unit);
-    file.attribute(variable.id, "long_name", variable.words);
-  }
+  for (Variable& variable : variables)
+    define_variable(file, time, variable.components == 4 ? wxyz : xyz, variable);
   check(nc_enddef(file.id()));
 }
 
 }  // namespace
 
-std::string trajectory_netcdf(const Bundle& bundle, const EngineRun& run,
-                              const Provenance& provenance) {
-  const std::vector<Observation>& samples = run.trajectory.samples;
-  std::vector<Variable> variables = variables_of(bundle.model);
-  File file;
-  describe(file, bundle, run, provenance);
-  define(file, variables, samples.size());
-  std::vector<double> values;
-  for (const Variable& variable : variables) {
-    values.clear();
-    for (const Observation& sample : samples)
-      for (int i = 0; i < variable.components; ++i) values.push_back(variable.value(sample, i));
-    if (!values.empty()) check(nc_put_var_double(file.id(), variable.id, values.data()));
+class NetcdfFile::Contents {
+ public:
+  Contents(const std::string& path, const Bundle& bundle, std::string_view engine,
+           const Provenance& provenance)
+      : variables_(variables_of(bundle.model)), file_(path) {
+    describe(file_, bundle, engine, provenance);
+    define(file_, variables_);
   }
-  return file.close();
+
+  void take(const Observation& sample) {
+    for (Variable& variable : variables_)
+      for (int i = 0; i < variable.components; ++i)
+        variable.waiting.push_back(variable.value(sample, i));
+    if (++waiting_ < kSamplesPerChunk) return;
+    const std::scoped_lock lock(library());
+    flush();
+  }
+
+  void close() {
+    flush();
+    file_.close();
+  }
+
+ private:
+  void flush() {
+    for (Variable& variable : variables_) {
+      const std::array<std::size_t, 2> start{written_, 0};
+      const std::array<std::size_t, 2> count{waiting_,
+                                             static_cast<std::size_t>(variable.components)};
+      if (waiting_ > 0)
+        check(nc_put_vara_double(file_.id(), variable.id, start.data(), count.data(),
+                                 variable.waiting.data()));
+      variable.waiting.clear();
+    }
+    written_ += std::exchange(waiting_, 0);
+  }
+
+  std::vector<Variable> variables_;
+  File file_;
+  std::size_t written_ = 0, waiting_ = 0;  // samples
+};
+
+NetcdfFile::NetcdfFile(const std::string& path, const Bundle& bundle, std::string_view engine,
+                       const Provenance& provenance) {
+  const std::scoped_lock lock(library());
+  contents_ = std::make_unique<Contents>(path, bundle, engine, provenance);
+}
+
+NetcdfFile::~NetcdfFile() {
+  const std::scoped_lock lock(library());
+  contents_.reset();
+}
+
+void NetcdfFile::take(const Observation& sample) { contents_->take(sample); }
+
+void NetcdfFile::close() {
+  const std::scoped_lock lock(library());
+  contents_->close();
 }
 
 }  // namespace twincraft

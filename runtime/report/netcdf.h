@@ -3,15 +3,32 @@
 // tests/runtime/netcdf_test.cpp.
 #pragma once
 
+#include <memory>
 #include <string>
+#include <string_view>
 
 #include "runtime/report/report.h"
 
 namespace twincraft {
 
-/// The bytes of a file, a function of its arguments alone.
-/// @throws std::runtime_error when the library fails
-std::string trajectory_netcdf(const Bundle& bundle, const EngineRun& run,
-                              const Provenance& provenance);
+/// A file that is written while its samples come. The bytes are a function of the arguments and the
+/// samples alone.
+class NetcdfFile {
+ public:
+  /// @param path  of a file that is replaced
+  /// All throw std::runtime_error when the library fails.
+  NetcdfFile(const std::string& path, const Bundle& bundle, std::string_view engine,
+             const Provenance& provenance);
+  ~NetcdfFile();
+  NetcdfFile(const NetcdfFile&) = delete;
+  NetcdfFile& operator=(const NetcdfFile&) = delete;
+
+  void take(const Observation& sample);
+  void close();
+
+ private:
+  class Contents;
+  std::unique_ptr<Contents> contents_;
+};
 
 }  // namespace twincraft

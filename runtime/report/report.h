@@ -2,6 +2,8 @@
 // (json, csv, table) return text; the program writes it.
 #pragma once
 
+#include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,8 +24,11 @@ struct Baseline {
     Comparison comparison;
   };
   std::size_t member = 0;
-  std::vector<OfEngine> engines;  // those that ran in both
+  std::vector<OfEngine> engines;         // those that ran in both, and failed in neither
+  std::vector<std::string> failed = {};  // engines that failed in the baseline
 };
+
+class PageSeries;  // runtime/report/html/page_series.h
 
 /// One member of a study and what made it.
 struct ReportedMember {
@@ -31,18 +36,55 @@ struct ReportedMember {
   std::vector<Setting> settings;
   Member result;
   std::optional<Baseline> against = {};  // when the study compares its members
+  // What the page draws of the samples; nothing: it is made of those that were kept.
+  std::shared_ptr<const PageSeries> series = {};
 
-  /// Let go of what only the member's own files need: all samples but the last, and the texts.
+  /// Let go of what only the member's own files and report.json need: all samples but the last, and
+  /// the texts.
   void shed();
 };
 
+/// What a study keeps of its members, so that it need not keep them.
+class StudyRecord {
+ public:
+  /// @param keep_ends  whether work is to be held against precision
+  explicit StudyRecord(bool keep_ends) : keep_ends_(keep_ends) {}
+
+  void add(const ReportedMember& member);
+
+  std::size_t members() const { return points_.all().size(); }
+  std::size_t complete() const { return complete_; }
+  std::size_t count(Verdict verdict) const;
+  /// exceeded_words() of the first member that has some.
+  const std::string& exceeded() const { return exceeded_; }
+  bool is_judged() const { return is_judged_; }                // something had a tolerance
+  bool judges_agreement() const { return judges_agreement_; }  // of every member
+  const StudyPoints& points() const { return points_; }
+
+ private:
+  bool keep_ends_;
+  std::size_t complete_ = 0;
+  std::map<Verdict, std::size_t> verdicts_;
+  std::string exceeded_;
+  bool is_judged_ = false, judges_agreement_ = true;
+  StudyPoints points_;
+};
+
+/// So many members of a study are kept for the page and the table; report.json has them all.
+inline constexpr std::size_t kKeptMembers = 500;
+
 struct Report {
   Provenance provenance;
-  std::vector<ReportedMember> members;  // at least one; of a study those that were begun
+  // At least one; of a study the first kKeptMembers of those that were begun.
+  std::vector<ReportedMember> members;
   std::optional<StudyPlan> study = {};  // nothing: a single run
   // Of the one member, when it was asked for.
   std::optional<Attribution> attribution = {};
+  // Of all members of a study; nothing: `members` are all.
+  std::shared_ptr<const StudyRecord> record = {};
 
+  /// Of all members.
+  std::shared_ptr<const StudyRecord> summary() const;
   bool complete() const;
   /// The first that some member has of interrupted, failed, unresolved (unless the study is about
   /// the step, the method or the tolerance), disagree, not judged; kAgree when none has one.
@@ -52,8 +94,8 @@ struct Report {
 /// It sweeps the step, the method or the tolerance: coarse members are its subject.
 bool is_about_resolution(const StudyPlan& study);
 
-/// The members as a study looks at them; valid as long as `members` is not changed.
-std::vector<StudyPoint> study_points(const std::vector<ReportedMember>& members);
+/// The members as a study looks at them.
+StudyPoints study_points(const std::vector<ReportedMember>& members);
 
 /// What the members show together.
 struct StudyResults {

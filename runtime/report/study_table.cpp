@@ -99,18 +99,14 @@ std::string reference_cell(const ReportedMember& member, std::string_view engine
 /// Attitude of an engine against its own baseline; position where there is no attitude.
 std::string against_cell(const ReportedMember& member, std::string_view engine) {
   if (!member.against) return "-";
+  if (std::ranges::find(member.against->failed, engine) != member.against->failed.end())
+    return "no baseline";
   for (const Baseline::OfEngine& of : member.against->engines) {
     if (of.engine != engine) continue;
     const Metric& metric = of.comparison.metrics.front();
     return quantity(metric.maximum, words_of(metric.key, member.bundle.model).unit);
   }
   return "-";
-}
-
-/// Some metric of some member has a tolerance.
-bool is_judged(const Report& report) {
-  return std::any_of(report.members.begin(), report.members.end(),
-                     [](const ReportedMember& one) { return worst_cell(one) != "-"; });
 }
 
 /// The columns of a sweep: heading and what each member has in it.
@@ -138,7 +134,7 @@ std::vector<Column> columns_of(const Report& report) {
       columns.push_back(
           {engine_label(engine) + " by itself",
            [engine](const ReportedMember& member) { return against_cell(member, engine); }});
-  if (is_judged(report)) columns.push_back({"worst, of tolerance", worst_cell});
+  if (report.summary()->is_judged()) columns.push_back({"worst, of tolerance", worst_cell});
   const std::vector<ReferenceRun>& references = report.members.front().result.references;
   if (!references.empty())
     for (const char* engine : {"bsm", "mujoco"})
@@ -168,8 +164,8 @@ std::string sweep_block(const Report& report) {
     for (const Column& column : columns) rows.back().push_back(column.cell(report.members[i]));
   }
   std::string text = aligned(rows);
-  if (shown < report.members.size())
-    text += fmt::format("  ... and {} more, in report.json\n", report.members.size() - shown);
+  const std::size_t all = report.summary()->members();
+  if (shown < all) text += fmt::format("  ... and {} more, in report.json\n", all - shown);
   return text;
 }
 
@@ -206,9 +202,9 @@ std::string trends_block(std::string_view title, const std::vector<Trend>& trend
   return fmt::format("\n{}\n{}", title, aligned(rows));
 }
 
-std::string configuration_words(const ReportedMember& member) {
+std::string configuration_words(const std::vector<Setting>& settings) {
   std::string words;
-  for (const Setting& setting : member.settings)
+  for (const Setting& setting : settings)
     if (setting.path.starts_with("simulation.")) {
       if (!words.empty()) words += ", ";
       const std::string key = last_step(setting.path);
@@ -230,12 +226,13 @@ std::string cost_cell(const WorkPoint& point) {
 std::string work_precision_block(const Report& report) {
   const std::vector<EngineWork> engines = study_results(report).work_precision;
   if (engines.empty()) return "  no reference run ended well: there is nothing to hold against\n";
+  const std::shared_ptr<const StudyRecord> all = report.summary();
   std::vector<Row> rows{{"configuration"}};
   for (const EngineWork& work : engines)
     for (const char* what : {"error", "cost"})
       rows[0].push_back(fmt::format("{} {}", engine_label(work.engine), what));
   for (std::size_t i = 0; i < engines.front().points.size(); ++i) {
-    rows.push_back({configuration_words(report.members[i])});
+    rows.push_back({configuration_words(all->points().all()[i].settings)});
     for (const EngineWork& work : engines) {
       rows.back().push_back(error_cell(work.points[i]));
       rows.back().push_back(cost_cell(work.points[i]));
@@ -257,7 +254,7 @@ std::string work_precision_block(const Report& report) {
 }  // namespace
 
 std::string member_line(std::size_t index, const ReportedMember& member, const StudyPlan& plan) {
-  std::string words = plan.is_work_precision ? configuration_words(member) : "";
+  std::string words = plan.is_work_precision ? configuration_words(member.settings) : "";
   for (const std::string& path : plan.paths)
     if (const Setting* setting = find_setting(member.settings, path))
       words += fmt::format("{}{} {}", words.empty() ? "" : ", ", last_step(path),
@@ -272,8 +269,8 @@ std::string member_line(std::size_t index, const ReportedMember& member, const S
 std::string study_table(const Report& report, bool colour) {
   const Model& model = report.members.front().bundle.model;
   const StudyPlan& plan = *report.study;
-  std::string text =
-      fmt::format("{}   {} of {} members\n\n", model.name, report.members.size(), plan.members);
+  std::string text = fmt::format("{}   {} of {} members\n\n", model.name,
+                                 report.summary()->members(), plan.members);
   if (plan.is_work_precision) {
     text += work_precision_block(report);
   } else {
@@ -285,7 +282,7 @@ std::string study_table(const Report& report, bool colour) {
         trends_block("difference of the engines, exponent in the value", results.slopes, report);
     if (results.left_out > 0)
       text += fmt::format("\n{} of {} members are left out of these: unresolved or failed\n",
-                          results.left_out, report.members.size());
+                          results.left_out, report.summary()->members());
   }
   return text + "\n" + verdict_line(report, colour) + "\n";
 }

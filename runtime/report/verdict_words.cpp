@@ -63,9 +63,7 @@ std::string unresolved_words(const Member& member) {
 
 /// Members with this verdict.
 std::size_t count(const Report& report, Verdict verdict) {
-  return static_cast<std::size_t>(std::ranges::count_if(
-      report.members,
-      [verdict](const ReportedMember& member) { return member.result.verdict() == verdict; }));
+  return report.summary()->count(verdict);
 }
 
 std::string members(std::size_t count) {
@@ -85,7 +83,7 @@ std::string study_words(const Report& report) {
     case Verdict::kFailed:
       return fmt::format("{} failed", members(count(report, Verdict::kFailed)));
     case Verdict::kInterrupted:
-      return fmt::format("interrupted after {} of {}", report.members.size(),
+      return fmt::format("interrupted after {} of {}", report.summary()->members(),
                          members(report.study->members));
     case Verdict::kNotJudged:
       break;

@@ -10,19 +10,14 @@
 #include <functional>
 #include <numbers>
 
+#include "runtime/study/pairing.h"
+
 namespace twincraft {
 namespace {
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;  // [deg/rad]
 
-using Difference = std::function<double(const Observation&, const Observation&)>;
-
-struct MetricLaw {
-  std::string key;
-  double unit;                      // key's units per SI unit
-  std::optional<double> tolerance;  // SI
-  Difference difference;            // SI
-};
+using Difference = decltype(MetricLaw::difference);
 
 enum class Norm { kEuclidean, kLargest };
 
@@ -102,44 +97,6 @@ void add_coordinate_laws(const Model& model, std::vector<MetricLaw>& laws) {
   add("pendulum_deg", kDegrees, tolerance.joint, {Kind::kPendulum}, Norm::kLargest);
 }
 
-std::vector<MetricLaw> laws_of(const Model& model) {
-  std::vector<MetricLaw> laws;
-  if (!model.simulation.translation) add_attitude_laws(model.agreement, laws);
-  add_translation_laws(model.agreement, laws);
-  add_coordinate_laws(model, laws);
-  laws.push_back(
-      {"mass_kg", 1.0, model.agreement.mass,
-       [](const Observation& a, const Observation& b) { return std::abs(a.mass - b.mass); }});
-  return laws;
-}
-
-/// How many samples from the start both were taken at the same instants.
-std::size_t common_samples(const Trajectory& a, const Trajectory& b) {
-  const auto [end, unused] =
-      std::mismatch(a.samples.begin(), a.samples.end(), b.samples.begin(), b.samples.end(),
-                    [](const Observation& x, const Observation& y) { return x.time == y.time; });
-  return static_cast<std::size_t>(end - a.samples.begin());
-}
-
-Metric measure(const MetricLaw& law, const Trajectory& a, const Trajectory& b, std::size_t count) {
-  Peak peak;
-  for (std::size_t i = 0; i < count; ++i)
-    peak.see(law.difference(a.samples[i], b.samples[i]), a.samples[i].time);
-  Metric metric{law.key, law.unit * peak.maximum, peak.at, std::nullopt};
-  if (law.tolerance) metric.tolerance = law.unit * *law.tolerance;
-  return metric;
-}
-
-Comparison measure_all(const std::vector<MetricLaw>& laws, const Trajectory& a,
-                       const Trajectory& b) {
-  Comparison comparison;
-  const std::size_t count = common_samples(a, b);
-  comparison.same_times = count > 0 && count == a.samples.size() && count == b.samples.size();
-  if (count == 0) return comparison;
-  for (const MetricLaw& law : laws) comparison.metrics.push_back(measure(law, a, b, count));
-  return comparison;
-}
-
 }  // namespace
 
 void Peak::see(double value, double time) {
@@ -160,24 +117,67 @@ double principal_angle(const Quaterniond& a, const Quaterniond& b) {
   return 2.0 * std::atan2(vec.norm(), std::abs(scalar));
 }
 
-MetricCurves metric_curves(const Model& model, const Trajectory& a, const Trajectory& b) {
-  MetricCurves all{common_samples(a, b), {}};
-  for (const MetricLaw& law : laws_of(model))
-    all.curves.push_back({law.key, [law, &a, &b](std::size_t sample) {
-                            return law.unit * law.difference(a.samples[sample], b.samples[sample]);
-                          }});
-  return all;
+std::vector<MetricLaw> metric_laws(const Model& model) {
+  std::vector<MetricLaw> laws;
+  if (!model.simulation.translation) add_attitude_laws(model.agreement, laws);
+  add_translation_laws(model.agreement, laws);
+  add_coordinate_laws(model, laws);
+  laws.push_back(
+      {"mass_kg", 1.0, model.agreement.mass,
+       [](const Observation& a, const Observation& b) { return std::abs(a.mass - b.mass); }});
+  return laws;
 }
 
-Comparison compare(const Model& model, const Trajectory& a, const Trajectory& b) {
-  return measure_all(laws_of(model), a, b);
-}
-
-Comparison compare_hubs(bool translation, const Trajectory& a, const Trajectory& b) {
+std::vector<MetricLaw> hub_laws(bool translation) {
   std::vector<MetricLaw> laws;
   if (!translation) add_attitude_laws({}, laws);
   add_translation_laws({}, laws);
-  return measure_all(laws, a, b);
+  return laws;
+}
+
+AgreementMeter::AgreementMeter(std::vector<MetricLaw> laws)
+    : laws_(std::move(laws)), now_(laws_.size()), peaks_(laws_.size()) {}
+
+void AgreementMeter::take(const Observation& a, const Observation& b) {
+  ++pairs_;
+  for (std::size_t i = 0; i < laws_.size(); ++i) {
+    now_[i] = laws_[i].unit * laws_[i].difference(a, b);
+    peaks_[i].see(now_[i], a.time);
+  }
+}
+
+Comparison AgreementMeter::result(bool same_times) const {
+  Comparison comparison;
+  comparison.same_times = same_times;
+  if (pairs_ == 0) return comparison;
+  for (std::size_t i = 0; i < laws_.size(); ++i) {
+    Metric metric{laws_[i].key, peaks_[i].maximum, peaks_[i].at, std::nullopt};
+    if (laws_[i].tolerance) metric.tolerance = laws_[i].unit * *laws_[i].tolerance;
+    comparison.metrics.push_back(std::move(metric));
+  }
+  return comparison;
+}
+
+namespace {
+
+Comparison compare(std::vector<MetricLaw> laws, const Trajectory& a, const Trajectory& b) {
+  AgreementMeter meter(std::move(laws));
+  Pairing pairing([&meter](const Observation& x, const Observation& y) { meter.take(x, y); });
+  for (std::size_t i = 0; i < std::max(a.samples.size(), b.samples.size()); ++i) {
+    if (i < a.samples.size()) pairing.add(0, a.samples[i]);
+    if (i < b.samples.size()) pairing.add(1, b.samples[i]);
+  }
+  return meter.result(pairing.same_times());
+}
+
+}  // namespace
+
+Comparison compare(const Model& model, const Trajectory& a, const Trajectory& b) {
+  return compare(metric_laws(model), a, b);
+}
+
+Comparison compare_hubs(bool translation, const Trajectory& a, const Trajectory& b) {
+  return compare(hub_laws(translation), a, b);
 }
 
 }  // namespace twincraft

@@ -37,18 +37,39 @@ struct Comparison {
   bool same_times = false;      // both trajectories were sampled at the same instants throughout
 };
 
-/// A metric as it goes, in the unit its key ends in; valid as long as the trajectories are.
-struct MetricCurve {
+/// A quantity that both engines show and how different they are in it.
+struct MetricLaw {
   std::string key;
-  std::function<double(std::size_t sample)> at;
+  double unit = 1.0;                // key's units per SI unit
+  std::optional<double> tolerance;  // SI
+  std::function<double(const Observation&, const Observation&)> difference;  // SI
 };
 
-/// What compare() takes the maxima of. Sample i is the i-th of either trajectory.
-struct MetricCurves {
-  std::size_t samples = 0;  // from the start, that both have
-  std::vector<MetricCurve> curves;
+/// Those that apply to a vehicle, in the order of the report.
+std::vector<MetricLaw> metric_laws(const Model& model);
+/// Those of the hub alone, which judge nothing: see compare_hubs().
+std::vector<MetricLaw> hub_laws(bool translation);
+
+/// A comparison made while pairs of samples come.
+class AgreementMeter {
+ public:
+  explicit AgreementMeter(std::vector<MetricLaw> laws);
+
+  /// Two samples of one instant.
+  void take(const Observation& a, const Observation& b);
+
+  /// Every law's difference in the last pair, in the unit its key ends in.
+  const std::vector<double>& now() const { return now_; }
+
+  /// @param same_times  no sample was left without a partner
+  Comparison result(bool same_times) const;
+
+ private:
+  std::vector<MetricLaw> laws_;
+  std::vector<double> now_;
+  std::vector<Peak> peaks_;
+  std::size_t pairs_ = 0;
 };
-MetricCurves metric_curves(const Model& model, const Trajectory& a, const Trajectory& b);
 
 /// Compares the samples both trajectories have, from the start to the first that differ in time.
 Comparison compare(const Model& model, const Trajectory& a, const Trajectory& b);

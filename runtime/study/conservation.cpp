@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "runtime/study/agreement.h"
-
 namespace twincraft {
 namespace {
 
@@ -18,72 +16,59 @@ constexpr double kAtRest = 1.0e-5;
 // Below this share of impulse or momentum on an arm of 1 m an angular momentum is rounding.
 constexpr double kRounding = 1.0e-12;
 
-double relative(double imbalance, double scale) {
+}  // namespace
+
+double ConservationMeter::relative(double imbalance, double scale) {
   return imbalance == 0.0 ? 0.0 : imbalance / scale;
 }
 
-struct Scales {
-  Peak energy, kinetic, momentum, H, impulse;
-
-  explicit Scales(const Trajectory& trajectory) {
-    for (const Observation& sample : trajectory.samples) {
-      energy.see(std::abs(sample.kinetic + sample.potential), sample.time);
-      kinetic.see(sample.kinetic, sample.time);
-      momentum.see(sample.momentum_scale, sample.time);
-      H.see(sample.H_scale, sample.time);
-    }
-    for (const Books& books : trajectory.books) impulse.see(books.impulse_N.norm(), 0.0);
-  }
-
-  double energy_scale() const {
-    return energy.maximum < kCancelled * kinetic.maximum ? kinetic.maximum : energy.maximum;
-  }
-
-  /// In a vehicle at rest with wheels that spin, forces cancel and next to nothing moves.
-  double momentum_scale() const {
-    return momentum.maximum > kAtRest * H.maximum ? momentum.maximum : H.maximum;
-  }
-
-  /// A vehicle that never turns has the rounding of forces and momenta on arms of about a metre for
-  /// an angular momentum.
-  double angular_scale() const {
-    const double on_an_arm = std::max(impulse.maximum, momentum.maximum);
-    return H.maximum > kRounding * on_an_arm ? H.maximum : on_an_arm;
-  }
-};
-
-}  // namespace
-
-ConservationCurve::ConservationCurve(const Trajectory& trajectory) : trajectory_(&trajectory) {
-  const Scales scales(trajectory);
-  energy_scale_ = scales.energy_scale();
-  momentum_scale_ = scales.momentum_scale();
-  H_scale_ = scales.angular_scale();
+void ConservationMeter::widen_scales(const Observation& sample, const Books& books) {
+  energy_scale_.see(std::abs(sample.kinetic + sample.potential), sample.time);
+  kinetic_scale_.see(sample.kinetic, sample.time);
+  momentum_scale_.see(sample.momentum_scale, sample.time);
+  H_scale_.see(sample.H_scale, sample.time);
+  impulse_scale_.see(books.impulse_N.norm(), sample.time);
 }
 
-Conservation ConservationCurve::at(std::size_t sample) const {
-  const Observation& start = trajectory_->samples.front();
-  const Observation& now = trajectory_->samples[sample];
-  const Books& books = trajectory_->books[sample];
+void ConservationMeter::take(const Observation& sample, const Books& books) {
+  if (!start_) start_ = Start{sample.kinetic, sample.potential, sample.momentum, sample.H_PntC_N};
+  widen_scales(sample, books);
   // Change first, then the books: the totals may be far larger than either.
-  const double gained = (now.kinetic - start.kinetic) + (now.potential - start.potential);
-  const Vector3d momentum = now.momentum - start.momentum - books.impulse_N;
-  const Vector3d H = now.H_PntC_N - start.H_PntC_N - books.angular_impulse_N;
-  return {relative(std::abs(gained - books.work), energy_scale_),
-          relative(momentum.norm(), momentum_scale_), relative(H.norm(), H_scale_)};
+  const double gained = (sample.kinetic - start_->kinetic) + (sample.potential - start_->potential);
+  const Vector3d momentum = sample.momentum - start_->momentum - books.impulse_N;
+  const Vector3d H = sample.H_PntC_N - start_->H - books.angular_impulse_N;
+  now_ = {std::abs(gained - books.work), momentum.norm(), H.norm()};
+  energy_.see(now_.energy, sample.time);
+  momentum_.see(now_.momentum, sample.time);
+  angular_momentum_.see(now_.angular_momentum, sample.time);
+}
+
+Conservation ConservationMeter::scales() const {
+  const double energy = energy_scale_.maximum < kCancelled * kinetic_scale_.maximum
+                            ? kinetic_scale_.maximum
+                            : energy_scale_.maximum;
+  // In a vehicle at rest with wheels that spin, forces cancel and next to nothing moves.
+  const double momentum = momentum_scale_.maximum > kAtRest * H_scale_.maximum
+                              ? momentum_scale_.maximum
+                              : H_scale_.maximum;
+  // A vehicle that never turns has the rounding of forces and momenta on arms of about a metre for
+  // an angular momentum.
+  const double on_an_arm = std::max(impulse_scale_.maximum, momentum_scale_.maximum);
+  const double H = H_scale_.maximum > kRounding * on_an_arm ? H_scale_.maximum : on_an_arm;
+  return {energy, momentum, H};
+}
+
+Conservation ConservationMeter::result() const {
+  const Conservation scale = scales();
+  return {relative(energy_.maximum, scale.energy), relative(momentum_.maximum, scale.momentum),
+          relative(angular_momentum_.maximum, scale.angular_momentum)};
 }
 
 Conservation conservation_of(const Trajectory& trajectory) {
-  if (trajectory.samples.empty()) return {};
-  const ConservationCurve curve(trajectory);
-  Peak energy, momentum, angular_momentum;
-  for (std::size_t i = 0; i < trajectory.samples.size(); ++i) {
-    const Conservation now = curve.at(i);
-    energy.see(now.energy, trajectory.samples[i].time);
-    momentum.see(now.momentum, trajectory.samples[i].time);
-    angular_momentum.see(now.angular_momentum, trajectory.samples[i].time);
-  }
-  return {energy.maximum, momentum.maximum, angular_momentum.maximum};
+  ConservationMeter meter;
+  for (std::size_t i = 0; i < trajectory.samples.size(); ++i)
+    meter.take(trajectory.samples[i], trajectory.books[i]);
+  return meter.result();
 }
 
 std::optional<bool> Balance::pass() const {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "runtime/study/agreement.h"
 #include "runtime/study/propagate.h"
 
 namespace twincraft {
@@ -20,16 +21,32 @@ struct Conservation {
   double angular_momentum = 0.0;
 };
 
-/// The same balances as they go; valid as long as the trajectory is.
-/// @pre one entry of books per sample, at least one
-class ConservationCurve {
+/// The balances of a run while its samples come. What they are relative to is known at the end, so
+/// imbalances and scales are kept apart.
+class ConservationMeter : public SampleSink {
  public:
-  explicit ConservationCurve(const Trajectory& trajectory);
-  Conservation at(std::size_t sample) const;
+  void take(const Observation& sample, const Books& books) override;
+
+  /// Of the last sample, not yet relative: [J], [kg m/s], [kg m^2/s].
+  const Conservation& imbalance() const { return now_; }
+  /// What imbalances are relative to, as far as the run got.
+  Conservation scales() const;
+  /// An imbalance of zero is zero whatever its scale.
+  static double relative(double imbalance, double scale);
+  /// Largest imbalances over their scales.
+  Conservation result() const;
 
  private:
-  const Trajectory* trajectory_;
-  double energy_scale_, momentum_scale_, H_scale_;
+  void widen_scales(const Observation& sample, const Books& books);
+
+  struct Start {
+    double kinetic, potential;
+    Vector3d momentum, H;
+  };
+  std::optional<Start> start_;
+  Conservation now_;
+  Peak energy_, momentum_, angular_momentum_;  // largest imbalances
+  Peak energy_scale_, kinetic_scale_, momentum_scale_, H_scale_, impulse_scale_;
 };
 
 /// A trajectory without samples has nothing to lose: all zero. A NaN stays a NaN.

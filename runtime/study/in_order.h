@@ -16,6 +16,9 @@
 
 namespace twincraft {
 
+/// So many results per thread may be early.
+inline constexpr std::size_t kEarlyResults = 4;
+
 template <class Result>
 struct OrderedWork {
   std::size_t count = 0;
@@ -28,7 +31,7 @@ template <class Result>
 class OrderedWorkers {
  public:
   OrderedWorkers(const OrderedWork<Result>& plan, std::size_t workers)
-      : plan_(plan), window_(4 * workers) {}
+      : plan_(plan), window_(kEarlyResults * workers) {}
 
   void work() {
     std::unique_lock lock(mutex_);

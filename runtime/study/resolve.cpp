@@ -9,14 +9,6 @@ namespace {
 
 using Status = EngineRun::Status;
 
-MotionRecord record_of(const Model& model, const Inspection& inspection, const EngineRun& run) {
-  MotionRecord record(model, inspection.events);
-  const Trajectory& trajectory = run.trajectory;
-  for (std::size_t i = 0; i < trajectory.samples.size(); ++i)
-    record.see(trajectory.samples[i], trajectory.books[i]);
-  return record;
-}
-
 RunShown shown(const EngineRun& run, const MotionRecord& record) {
   const Trajectory& trajectory = run.trajectory;
   const auto steps = static_cast<double>(std::max(1L, trajectory.counts.accepted));
@@ -34,23 +26,20 @@ void explain(const Model& model, const Inspection& inspection, const MotionRecor
 
 }  // namespace
 
-void judge_member(const Model& model, const Inspection& inspection, Member& member) {
-  std::vector<MotionRecord> records;
-  for (EngineRun& run : member.engines) {
-    records.push_back(record_of(model, inspection, run));
-    run.own_energy = figures_of(records.back().energy());
-  }
+void judge_member(const Model& model, const Inspection& inspection,
+                  std::span<const MotionRecord* const> records, Member& member) {
   std::vector<const OwnEnergy*> energies;
   for (std::size_t i = 0; i < records.size(); ++i) {
     EngineRun& run = member.engines[i];
-    if (run.status == Status::kFailed) explain(model, inspection, records[i], run, member);
-    if (run.status == Status::kOk) energies.push_back(&records[i].energy());
+    run.own_energy = figures_of(records[i]->energy());
+    if (run.status == Status::kFailed) explain(model, inspection, *records[i], run, member);
+    if (run.status == Status::kOk) energies.push_back(&records[i]->energy());
   }
   if (member.failed()) return;
   for (std::size_t i = 0; i < records.size() && !member.resolution; ++i)
     if (member.engines[i].status == Status::kOk)
       member.resolution =
-          judge_resolution(model, inspection, shown(member.engines[i], records[i]), energies);
+          judge_resolution(model, inspection, shown(member.engines[i], *records[i]), energies);
 }
 
 }  // namespace twincraft

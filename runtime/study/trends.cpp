@@ -5,12 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <optional>
 
 namespace twincraft {
 namespace {
 
-using Points = std::vector<StudyPoint>;
+using Points = std::vector<const StudyPoint*>;
 
 /// Members that differ in `path` and nothing else (zipped: whose paths all step together).
 struct Group {
@@ -19,33 +20,27 @@ struct Group {
   Points points;
 };
 
-bool same_values(const std::vector<Setting>& a, const std::vector<Setting>& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](const Setting& x, const Setting& y) { return x.text == y.text; });
-}
-
 std::vector<Setting> others_of(const StudyPlan& plan, const std::string& path,
                                const StudyPoint& point) {
   std::vector<Setting> others;
   if (!plan.is_grid) return others;
   for (const std::string& other : plan.paths)
-    if (other != path) others.push_back(*find_setting(*point.settings, other));
+    if (other != path) others.push_back(*find_setting(point.settings, other));
   return others;
 }
 
 std::vector<Group> groups_along(const std::string& path, const StudyPlan& plan,
-                                const Points& points) {
+                                const StudyPoints& points) {
   std::vector<Group> groups;
-  for (const StudyPoint& point : points) {
-    if (find_setting(*point.settings, path) == nullptr) continue;  // it never got that far
+  std::map<std::vector<std::string>, std::size_t> known;  // groups by the values of the others
+  for (const StudyPoint& point : points.all()) {
+    if (!point.in_fits || find_setting(point.settings, path) == nullptr) continue;
     std::vector<Setting> others = others_of(plan, path, point);
-    const auto found = std::find_if(groups.begin(), groups.end(), [&](const Group& group) {
-      return same_values(group.others, others);
-    });
-    Group& group = found != groups.end() ? *found : groups.emplace_back();
-    group.path = path;
-    group.others = std::move(others);
-    group.points.push_back(point);
+    std::vector<std::string> values;
+    for (const Setting& other : others) values.push_back(other.text);
+    const auto [found, is_new] = known.try_emplace(std::move(values), groups.size());
+    if (is_new) groups.push_back({path, std::move(others), {}});
+    groups[found->second].points.push_back(&point);
   }
   return groups;
 }
@@ -60,17 +55,27 @@ double exponent(double x1, double x2, double y1, double y2) {
   return exists && std::isfinite(value) ? value : std::nan("");
 }
 
+std::optional<double> value_of(const StudyPoint& point, const Quantity& quantity) {
+  for (const auto& [known, value] : point.values)
+    if (*known == quantity) return value;
+  return std::nullopt;
+}
+
 /// Nothing when there is no exponent to tell.
-void add_trend(const Group& group, Trend trend, const Number& x, const Number& y,
+void add_trend(const Group& group, const Quantity& quantity, const Number& x,
                std::vector<Trend>& trends) {
+  Trend trend;
+  trend.reference = quantity.reference;
+  trend.engine = quantity.engine;
+  trend.metric = quantity.metric;
   trend.path = group.path;
   trend.others = group.others;
-  for (const StudyPoint& point : group.points) {
-    const std::optional<double> at = x(point), value = y(point);
+  for (const StudyPoint* point : group.points) {
+    const std::optional<double> at = x(*point), value = value_of(*point, quantity);
     if (!at || !value) continue;
     trend.x.push_back(*at);
     trend.y.push_back(*value);
-    trend.members.push_back(point.member);
+    trend.members.push_back(point->member);
   }
   bool any = false;
   for (std::size_t i = 1; i < trend.x.size(); ++i) {
@@ -80,57 +85,45 @@ void add_trend(const Group& group, Trend trend, const Number& x, const Number& y
   if (any) trends.push_back(std::move(trend));
 }
 
-std::optional<double> metric_of(const StudyPoint& point, const std::string& key) {
-  if (!point.result->comparison) return std::nullopt;
-  for (const Metric& metric : point.result->comparison->metrics)
-    if (metric.key == key) return metric.maximum;
-  return std::nullopt;
+bool is_agreement(const Quantity& quantity) {
+  return quantity.reference.empty() && quantity.engine.empty();
 }
 
 /// Every metric that the first member with a comparison has.
 void add_metrics(const Group& group, const Number& x, std::vector<Trend>& trends) {
-  const auto compared =
-      std::find_if(group.points.begin(), group.points.end(),
-                   [](const StudyPoint& point) { return point.result->comparison.has_value(); });
+  const auto is_metric = [](const auto& value) { return is_agreement(*value.first); };
+  const auto compared = std::ranges::find_if(group.points, [&](const StudyPoint* point) {
+    return std::ranges::any_of(point->values, is_metric);
+  });
   if (compared == group.points.end()) return;
-  for (const Metric& metric : compared->result->comparison->metrics) {
-    Trend trend;
-    trend.metric = metric.key;
-    add_trend(
-        group, trend, x, [&](const StudyPoint& point) { return metric_of(point, metric.key); },
-        trends);
-  }
+  for (const auto& [quantity, unused] : (*compared)->values)
+    if (is_agreement(*quantity)) add_trend(group, *quantity, x, trends);
 }
 
-std::optional<double> deviation_of(const StudyPoint& point, const ReferenceRun& like,
-                                   const std::string& metric) {
-  for (const ReferenceRun& run : point.result->references) {
-    if (run.name != like.name || run.engine != like.engine) continue;
-    for (const Deviation& deviation : run.deviations)
-      if (deviation.metric == metric) return deviation.max;
-  }
-  return std::nullopt;
+bool has_references(const Group& group) {
+  return std::ranges::any_of(group.points.front()->values,
+                             [](const auto& value) { return !value.first->reference.empty(); });
 }
 
+/// Every deviation that the first member has.
 void add_references(const Group& group, const Number& x, std::vector<Trend>& trends) {
-  for (const ReferenceRun& run : group.points.front().result->references)
-    for (const Deviation& deviation : run.deviations) {
-      Trend trend;
-      trend.reference = run.name;
-      trend.engine = run.engine;
-      trend.metric = deviation.metric;
-      add_trend(
-          group, trend, x,
-          [&](const StudyPoint& point) { return deviation_of(point, run, deviation.metric); },
-          trends);
-    }
+  for (const auto& [quantity, unused] : group.points.front()->values)
+    if (!quantity->reference.empty()) add_trend(group, *quantity, x, trends);
 }
 
-std::optional<double> microseconds_per_step(const StudyPoint& point, const std::string& engine) {
-  if (!point.result->timing || !point.result->timing->complete()) return std::nullopt;
-  for (const EngineTiming& timing : point.result->timing->engines)
-    if (timing.name == engine) return 1.0e6 * timing.per_step();
-  return std::nullopt;
+std::vector<EngineEnd> ends_of(const Member& member) {
+  std::vector<EngineEnd> ends;
+  for (const EngineRun& run : member.engines) {
+    if (run.status != EngineRun::Status::kOk || run.trajectory.samples.empty() ||
+        run.trajectory.status != Trajectory::Status::kComplete)
+      continue;
+    const Observation& last = run.trajectory.samples.back();
+    ends.push_back({run.name, last.q_BN, last.r_BN_N, run.trajectory.counts.evaluations, {}});
+    if (!member.timing || !member.timing->complete()) continue;
+    for (const EngineTiming& timing : member.timing->engines)
+      if (timing.name == run.name) ends.back().median = timing.median();
+  }
+  return ends;
 }
 
 }  // namespace
@@ -141,45 +134,64 @@ const Setting* find_setting(const std::vector<Setting>& settings, const std::str
   return found == settings.rend() ? nullptr : &*found;
 }
 
-std::vector<Trend> convergence_of(const StudyPlan& plan, const std::vector<StudyPoint>& points) {
+void StudyPoints::add_value(Quantity quantity, double value, StudyPoint& point) {
+  point.values.emplace_back(&*quantities_.insert(std::move(quantity)).first, value);
+}
+
+void StudyPoints::add(const std::vector<Setting>& settings, const Model& model,
+                      const Member& member, bool keep_ends) {
+  StudyPoint point;
+  point.settings = settings;
+  point.step = model.simulation.step;
+  point.degrees_of_freedom = model.degrees_of_freedom();
+  point.member = all_.size();
+  point.in_fits = !member.failed() && !member.unresolved();
+  if (member.comparison)
+    for (const Metric& metric : member.comparison->metrics)
+      add_value({"", "", metric.key}, metric.maximum, point);
+  for (const ReferenceRun& run : member.references)
+    for (const Deviation& deviation : run.deviations)
+      add_value({run.name, run.engine, deviation.metric}, deviation.max, point);
+  if (member.timing && member.timing->complete())
+    for (const EngineTiming& timing : member.timing->engines)
+      add_value({"", timing.name, ""}, 1.0e6 * timing.per_step(), point);
+  if (keep_ends) point.ends = ends_of(member);
+  point.values.shrink_to_fit();
+  all_.push_back(std::move(point));
+}
+
+std::vector<Trend> convergence_of(const StudyPlan& plan, const StudyPoints& points) {
   std::vector<Trend> trends;
   const Number step = [](const StudyPoint& point) { return point.step; };
   for (const std::string& path : plan.paths) {
     if (!is_step(path)) continue;
     for (const Group& group : groups_along(path, plan, points)) {
-      if (group.points.front().result->references.empty())
-        add_metrics(group, step, trends);
-      else
+      if (has_references(group))
         add_references(group, step, trends);
+      else
+        add_metrics(group, step, trends);
     }
   }
   return trends;
 }
 
-std::vector<Trend> scaling_of(const StudyPlan& plan, const std::vector<StudyPoint>& points) {
+std::vector<Trend> scaling_of(const StudyPlan& plan, const StudyPoints& points) {
   std::vector<Trend> trends;
   const Number size = [](const StudyPoint& point) { return point.degrees_of_freedom; };
   for (const std::string& path : plan.paths) {
     if (!plan.is_grid && path != plan.paths.front()) break;  // all paths make one group
     for (const Group& group : groups_along(path, plan, points))
-      for (const char* engine : {"bsm", "mujoco"}) {
-        Trend trend;
-        trend.engine = engine;
-        add_trend(
-            group, trend, size,
-            [engine](const StudyPoint& point) { return microseconds_per_step(point, engine); },
-            trends);
-      }
+      for (const char* engine : {"bsm", "mujoco"}) add_trend(group, {"", engine, ""}, size, trends);
   }
   return trends;
 }
 
-std::vector<Trend> slopes_of(const StudyPlan& plan, const std::vector<StudyPoint>& points) {
+std::vector<Trend> slopes_of(const StudyPlan& plan, const StudyPoints& points) {
   std::vector<Trend> trends;
   for (const std::string& path : plan.paths) {
     if (is_step(path)) continue;
     const Number value = [&path](const StudyPoint& point) {
-      return find_setting(*point.settings, path)->value;
+      return find_setting(point.settings, path)->value;
     };
     for (const Group& group : groups_along(path, plan, points)) add_metrics(group, value, trends);
   }

@@ -1,5 +1,6 @@
 // What a run that came to its end and is resolved is judged by, in one list: every figure of the
-// report that has a tolerance, whatever it is a figure of.  Tested by tests/runtime/verdict_test.cpp.
+// report that has a tolerance, whatever it is a figure of.  Tested by
+// tests/runtime/verdict_test.cpp.
 #pragma once
 
 #include <span>

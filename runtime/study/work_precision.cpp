@@ -12,37 +12,26 @@ namespace {
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;  // [deg/rad]
 
-/// The run of an engine that got to its end; null when there is none.
-const EngineRun* completed(const Member& member, std::string_view engine) {
-  for (const EngineRun& run : member.engines)
-    if (run.name == engine && run.status == EngineRun::Status::kOk &&
-        run.trajectory.status == Trajectory::Status::kComplete && !run.trajectory.samples.empty())
-      return &run;
+/// Null when the engine did not get to the end of the member's run.
+const EngineEnd* end_of(const StudyPoint& point, std::string_view engine) {
+  for (const EngineEnd& end : point.ends)
+    if (end.engine == engine) return &end;
   return nullptr;
 }
 
-FinalError difference(const EngineRun& run, const EngineRun& truth) {
-  const Observation& a = run.trajectory.samples.back();
-  const Observation& b = truth.trajectory.samples.back();
+FinalError difference(const EngineEnd& a, const EngineEnd& b) {
   return {kDegrees * principal_angle(a.q_BN, b.q_BN), (a.r_BN_N - b.r_BN_N).norm()};
 }
 
-std::optional<double> median_of(const Member& member, std::string_view engine) {
-  if (!member.timing || !member.timing->complete()) return std::nullopt;
-  for (const EngineTiming& timing : member.timing->engines)
-    if (timing.name == engine) return timing.median();
-  return std::nullopt;
-}
-
-WorkPoint point_of(const Member& member, std::size_t index, const EngineRun& truth) {
+WorkPoint point_of(const StudyPoint& member, std::size_t index, const EngineEnd& truth) {
   WorkPoint point;
   point.member = index;
-  const EngineRun* run = completed(member, truth.name);
-  point.diverged = run == nullptr;
+  const EngineEnd* end = end_of(member, truth.engine);
+  point.diverged = end == nullptr;
   if (point.diverged) return point;
-  point.error = difference(*run, truth);
-  point.evaluations = run->trajectory.counts.evaluations;
-  point.median = median_of(member, truth.name);
+  point.error = difference(*end, truth);
+  point.evaluations = end->evaluations;
+  point.median = end->median;
   point.diverged = !std::isfinite(point.error.attitude) || !std::isfinite(point.error.position);
   return point;
 }
@@ -69,18 +58,17 @@ void mark_frontier(std::vector<WorkPoint>& points) {
 
 }  // namespace
 
-std::vector<EngineWork> work_precision_of(const std::vector<StudyPoint>& points) {
+std::vector<EngineWork> work_precision_of(const StudyPoints& points) {
   std::vector<EngineWork> engines;
-  const std::size_t configurations = points.size() - 2;
-  const Member& reference = *points[configurations].result;
-  const Member& check = *points[configurations + 1].result;
+  const std::vector<StudyPoint>& members = points.all();
+  const std::size_t configurations = members.size() - 2;
   for (const char* name : {"bsm", "mujoco"}) {
-    const EngineRun* truth = completed(reference, name);
-    const EngineRun* doubt = completed(check, name);
+    const EngineEnd* truth = end_of(members[configurations], name);
+    const EngineEnd* doubt = end_of(members[configurations + 1], name);
     if (truth == nullptr || doubt == nullptr) continue;
     EngineWork work{name, difference(*doubt, *truth), {}};
     for (std::size_t i = 0; i < configurations; ++i)
-      work.points.push_back(point_of(*points[i].result, i, *truth));
+      work.points.push_back(point_of(members[i], i, *truth));
     mark_frontier(work.points);
     engines.push_back(std::move(work));
   }

@@ -34,7 +34,7 @@ struct EngineWork {
 
 /// Engines whose reference and check did not end well are left out.
 /// @pre the last two points are the reference and the check
-std::vector<EngineWork> work_precision_of(const std::vector<StudyPoint>& points);
+std::vector<EngineWork> work_precision_of(const StudyPoints& points);
 
 /// In how many configurations that both completed and that were timed the first engine was faster.
 struct Faster {

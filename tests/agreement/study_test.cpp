@@ -202,6 +202,27 @@ TEST_F(ScsimStudy, ShowsWhatAnOrbitDoesToTheRotationOfOneEngine) {
   EXPECT_LT(members[2]["against"]["mujoco"]["attitude_deg"]["max"], 1.0e-2);
 }
 
+TEST_F(ScsimStudy, SaysThatThereIsNoBaselineWhereItFailed) {
+  // The first stiffness is far outside of Euler's stability, the second inside.
+  const std::string spec = folder.write("fails.yaml", R"(format: spacecraft/1
+name: fails
+hub: {mass: 100, inertia: [100, 100, 100]}
+panels:
+  - {name: wing, hinge: {position: [1, 0, 0], axis: [0, 1, 0], outboard: [1, 0, 0]},
+     mass: 10, length: 1, inertia: {shape: bar}, stiffness: 1.0e+6, angle: 1 deg}
+simulation: {integrator: euler, step: 0.5, duration: 500, resolution: report}
+study:
+  compare: panels.wing.stiffness
+  sweep: [{set: panels.wing.stiffness, values: [1.0e+6, 1.0e-4]}]
+)");
+  const ProgramResult result = run({spec, "--no-timing"});
+  EXPECT_EQ(result.exit_code, 4) << result.out << result.err;
+  EXPECT_THAT(result.out, HasSubstr("no baseline"));
+  const json against = report()["members"][1]["against"];
+  EXPECT_EQ(against["failed_baselines"], (json{"bsm", "mujoco"}));
+  EXPECT_FALSE(against.contains("bsm"));
+}
+
 TEST_F(ScsimStudy, HoldsEveryGroupOfAGridAgainstItsOwnFirst) {
   const std::string spec = folder.write("tumbler.yaml", kTumbler + "  compare: simulation.step\n");
   ASSERT_EQ(run({spec, "--no-timing", "--jobs", "3"}).exit_code, 0);

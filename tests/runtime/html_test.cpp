@@ -12,7 +12,7 @@
 #include "runtime/report/html/base64.h"
 #include "runtime/report/html/decimate.h"
 #include "runtime/report/html/document.h"
-#include "runtime/report/html/histories.h"
+#include "runtime/report/html/page_series.h"
 #include "runtime/report/html/page_data.h"
 #include "runtime/report/html/replay_data.h"
 #include "runtime/report/json.h"
@@ -45,37 +45,91 @@ TEST(Base64, HashesAsAPolicyWantsIt) {
   EXPECT_EQ(csp_hash("abc"), "sha256-ungWv48Bz+pBQUDeXa4iI7ADYaOWF3qctBD/YfIAFa0=");
 }
 
-Column column(std::vector<double> values) {
-  return [values = std::move(values)](std::size_t i) { return values.at(i); };
+std::vector<double> doubles(const std::string& text) {
+  constexpr std::string_view kDigits =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string bytes;
+  unsigned bits = 0;
+  int count = 0;
+  for (const char c : text) {
+    if (c == '=') break;
+    bits = bits << 6U | static_cast<unsigned>(kDigits.find(c));
+    count += 6;
+    if (count < 8) continue;
+    count -= 8;
+    bytes += static_cast<char>(bits >> static_cast<unsigned>(count) & 255U);
+  }
+  std::vector<double> values(bytes.size() / sizeof(double));
+  std::memcpy(values.data(), bytes.data(), values.size() * sizeof(double));
+  return values;
 }
 
-TEST(Decimation, LeavesShortHistoriesAlone) {
-  const Decimation all(4, 4);
+/// One column, whose samples are a second apart.
+Decimator decimated(const std::vector<double>& values, std::size_t points) {
+  Decimator column(1, points);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    column.take(static_cast<double>(i), std::span(&values[i], 1));
+  return column;
+}
+
+TEST(Decimator, LeavesShortHistoriesAlone) {
+  const Decimator all = decimated({3, 1, 4, 1}, 4);
   EXPECT_FALSE(all.thins());
-  EXPECT_THAT(all.extremes(column({3, 1, 4, 1})), ElementsAre(3, 1, 4, 1));
+  EXPECT_THAT(all.extremes(0), ElementsAre(3, 1, 4, 1));
+  EXPECT_THAT(all.times(), ElementsAre(0, 1, 2, 3));
 }
 
-TEST(Decimation, KeepsLeastAndGreatestOfEveryBucketInTheirOrder) {
-  const Decimation thin(8, 4);
+TEST(Decimator, KeepsLeastAndGreatestOfEveryBucketInTheirOrder) {
+  const Decimator thin = decimated({0, 9, -5, 1, 2, -7, 8, 3}, 4);
   EXPECT_TRUE(thin.thins());
   EXPECT_EQ(thin.points(), 4U);
-  EXPECT_THAT(thin.extremes(column({0, 9, -5, 1, 2, -7, 8, 3})), ElementsAre(9, -5, -7, 8));
-  EXPECT_THAT(thin.instants(column({0, 1, 2, 3, 4, 5, 6, 7})), ElementsAre(0, 3, 4, 7));
+  EXPECT_THAT(thin.extremes(0), ElementsAre(9, -5, -7, 8));
+  EXPECT_THAT(thin.times(), ElementsAre(0, 3, 4, 7));
 }
 
-TEST(Decimation, LosesNoPeakWhereverItIs) {
-  const Decimation thin(1000, 20);
-  for (std::size_t peak = 0; peak < 1000; ++peak) {
-    const auto curve = [peak](std::size_t i) { return i == peak ? 1.0 : 0.0; };
-    EXPECT_THAT(thin.extremes(curve), testing::Contains(1.0)) << peak;
-  }
+TEST(Decimator, LosesNoPeakWhereverItIsAndHoweverManySamplesCome) {
+  for (const std::size_t size : {50U, 1000U, 4097U})
+    for (std::size_t peak = 0; peak < size; peak += 7) {
+      std::vector<double> values(size, 0.0);
+      values[peak] = 1.0;
+      const Decimator thin = decimated(values, 20);
+      EXPECT_THAT(thin.extremes(0), testing::Contains(1.0)) << peak << " of " << size;
+      EXPECT_THAT(thin.extremes(0), testing::SizeIs(20));
+      EXPECT_EQ(thin.times().front(), 0.0);
+      EXPECT_EQ(thin.times().back(), static_cast<double>(size - 1));
+      EXPECT_TRUE(std::ranges::is_sorted(thin.times()));
+    }
 }
 
-TEST(Decimation, ShowsABucketWithoutANumberAsSuch) {
-  const Decimation thin(8, 4);
-  const std::vector<double> shown = thin.extremes(column({0, 1, kNan, 3, 4, 5, 6, 7}));
+TEST(Decimator, KeepsTheOrderOfExtremesWhenBucketsAreMerged) {
+  std::vector<double> saw;
+  for (int i = 0; i < 6400; ++i) saw.push_back(i % 640);  // up, ten times over
+  const std::vector<double> shown = decimated(saw, 20).extremes(0);
+  for (std::size_t i = 0; i + 1 < shown.size(); i += 2) EXPECT_LT(shown[i], shown[i + 1]);
+}
+
+TEST(Decimator, ShowsABucketWithoutANumberAsSuch) {
+  const std::vector<double> shown = decimated({0, 1, kNan, 3, 4, 5, 6, 7}, 4).extremes(0);
   EXPECT_TRUE(std::isnan(shown[0]) && std::isnan(shown[1]));
   EXPECT_THAT(std::vector(shown.begin() + 2, shown.end()), ElementsAre(4, 7));
+}
+
+TEST(Frames, AreSpreadOverALongRunFromItsFirstToItsLastSample) {
+  const Model model = test::model_of_every_kind();
+  Frames frames(model);
+  Observation sample = test::sample_at(0.0, model);
+  const int last = 100'000;
+  for (int i = 0; i <= last; ++i) {
+    sample.time = i;
+    frames.take(sample);
+  }
+  const std::vector<double> rows = doubles(frames.text());
+  const std::size_t width = rows.size() / frames.count();
+  EXPECT_EQ(rows[0], 0.0);
+  EXPECT_EQ(rows[rows.size() - width], last);
+  const double mean = static_cast<double>(last) / static_cast<double>(frames.count() - 1);
+  for (std::size_t i = 1; i < frames.count(); ++i)
+    EXPECT_NEAR(rows[i * width] - rows[(i - 1) * width], mean, 0.5 * mean);
 }
 
 EngineRun engine_run(const std::string& name, const Model& model) {
@@ -98,25 +152,6 @@ Report small_report() {
   Report report{provenance(), {}};
   report.members.push_back(std::move(member));
   return report;
-}
-
-std::vector<double> doubles(const std::string& text) {
-  constexpr std::string_view kDigits =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string bytes;
-  unsigned bits = 0;
-  int count = 0;
-  for (const char c : text) {
-    if (c == '=') break;
-    bits = bits << 6U | static_cast<unsigned>(kDigits.find(c));
-    count += 6;
-    if (count < 8) continue;
-    count -= 8;
-    bytes += static_cast<char>(bits >> static_cast<unsigned>(count) & 255U);
-  }
-  std::vector<double> values(bytes.size() / sizeof(double));
-  std::memcpy(values.data(), bytes.data(), values.size() * sizeof(double));
-  return values;
 }
 
 json figure(const json& histories, const std::string& metric) {

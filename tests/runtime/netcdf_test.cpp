@@ -7,6 +7,9 @@
 #include <netcdf.h>
 #include <netcdf_mem.h>
 
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <limits>
 
 #include "tests/runtime/handmade.h"
@@ -76,7 +79,16 @@ struct Written {
     run.name = "bsm";
     run.trajectory = test::standstill(bundle.model);
   }
-  std::string bytes() const { return trajectory_netcdf(bundle, run, provenance()); }
+  std::string bytes() const {
+    const std::string path = testing::TempDir() + "written.nc";
+    NetcdfFile file(path, bundle, run.name, provenance());
+    for (const Observation& sample : run.trajectory.samples) file.take(sample);
+    file.close();
+    std::ifstream stream(path, std::ios::binary);
+    std::string read{std::istreambuf_iterator<char>(stream), {}};
+    std::filesystem::remove(path);
+    return read;
+  }
 };
 
 TEST(Netcdf, ReadsBackToTheBit) {
@@ -93,6 +105,23 @@ TEST(Netcdf, ReadsBackToTheBit) {
   EXPECT_THAT(read.values("slosh.position"), ElementsAre(0.0, 0.0, 0.1));
   EXPECT_THAT(read.values("rw_y.rate"), ElementsAre(0.0, 0.0, testing::IsNan()));
   EXPECT_THAT(read.values("mass"), ElementsAre(100.0, 100.0, 100.0));
+}
+
+TEST(Netcdf, KeepsEverySampleOfALongRunInItsPlace) {
+  Written written;
+  std::vector<Observation>& samples = written.run.trajectory.samples;
+  samples.assign(2500, samples[0]);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    samples[i].time = static_cast<double>(i);
+    samples[i].v_BN_N.y() = -static_cast<double>(i);
+  }
+  const Reader read(written.bytes());
+  const std::vector<double> time = read.values("time"), v = read.values("v_BN_N");
+  ASSERT_EQ(time.size(), samples.size());
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    ASSERT_EQ(time[i], static_cast<double>(i));
+    ASSERT_EQ(v[3 * i + 1], -static_cast<double>(i));
+  }
 }
 
 TEST(Netcdf, SaysTheUnitOfEveryVariable) {

@@ -1,52 +1,118 @@
-// See decimate.h. Tested by tests/runtime/html_test.cpp.
+// See decimate.h. How many samples will come is not known, and a run may end early. So there are
+// several times more buckets than are shown; when all are full, neighbours are merged. At the end
+// the shown ones are put together of them. Tested by tests/runtime/html_test.cpp.
 #include "runtime/report/html/decimate.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace twincraft {
+namespace {
 
-Decimation::Decimation(std::size_t samples, std::size_t points)
-    : samples_(samples), buckets_(points / 2), thins_(samples > points) {}
+// Buckets kept for one that is shown: at least two, so that shown ones differ little in width.
+constexpr std::size_t kFinest = 8, kCoarsest = 2;
+constexpr std::size_t kMostRanges = 1'000'000;  // 24 MB
 
-std::size_t Decimation::points() const { return thins_ ? 2 * buckets_ : samples_; }
-
-std::vector<double> Decimation::instants(const Column& column) const {
-  std::vector<double> values;
-  values.reserve(points());
-  if (!thins_) {
-    for (std::size_t i = 0; i < samples_; ++i) values.push_back(column(i));
-    return values;
-  }
-  for (std::size_t bucket = 0; bucket < buckets_; ++bucket) {
-    values.push_back(column(begin_of(bucket)));
-    values.push_back(column(begin_of(bucket + 1) - 1));
-  }
-  return values;
+std::size_t fineness(std::size_t columns, std::size_t shown) {
+  return std::clamp(kMostRanges / std::max<std::size_t>(1, columns * shown), kCoarsest, kFinest);
 }
 
-std::vector<double> Decimation::extremes(const Column& column) const {
-  if (!thins_) return instants(column);
-  std::vector<double> values;
-  values.reserve(points());
-  for (std::size_t bucket = 0; bucket < buckets_; ++bucket) {
-    const std::size_t begin = begin_of(bucket);
-    double least = column(begin), greatest = least;
-    bool greatest_last = true;
-    // Written so that a NaN, once met, stays.
-    for (std::size_t i = begin + 1; i < begin_of(bucket + 1) && !std::isnan(least); ++i) {
-      const double value = column(i);
-      if (std::isnan(value)) {
-        least = greatest = value;
-      } else if (value > greatest) {
-        greatest = value;
-        greatest_last = true;
-      } else if (value < least) {
-        least = value;
-        greatest_last = false;
-      }
+}  // namespace
+
+void Decimator::Range::see(double value) {
+  if (std::isnan(least)) return;  // a NaN, once met, stays
+  if (std::isnan(value)) {
+    least = greatest = value;
+  } else if (value > greatest) {
+    greatest = value;
+    greatest_last = true;
+  } else if (value < least) {
+    least = value;
+    greatest_last = false;
+  }
+}
+
+void Decimator::Range::append(const Range& later) {
+  if (later.greatest_last) {
+    see(later.least);
+    see(later.greatest);
+  } else {
+    see(later.greatest);
+    see(later.least);
+  }
+}
+
+Decimator::Decimator(std::size_t columns, std::size_t points)
+    : columns_(columns),
+      points_(points),
+      most_buckets_((fineness(columns, points / 2) * (points / 2) + 1) / 2 * 2) {}
+
+void Decimator::add_bucket(double time, std::span<const double> values) {
+  times_.push_back({time, time});
+  for (const double value : values) ranges_.push_back({value, value, true});
+  in_last_ = 1;
+}
+
+void Decimator::halve() {
+  const std::size_t half = times_.size() / 2;
+  for (std::size_t i = 0; i < half; ++i) {
+    times_[i] = {times_[2 * i].first, times_[2 * i + 1].last};
+    for (std::size_t c = 0; c < columns_; ++c) {
+      Range merged = ranges_[2 * i * columns_ + c];
+      merged.append(ranges_[(2 * i + 1) * columns_ + c]);
+      ranges_[i * columns_ + c] = merged;
     }
-    values.push_back(greatest_last ? least : greatest);
-    values.push_back(greatest_last ? greatest : least);
+  }
+  times_.resize(half);
+  ranges_.resize(half * columns_, Range{0.0, 0.0, true});
+  width_ *= 2;
+}
+
+void Decimator::take(double time, std::span<const double> values) {
+  ++samples_;
+  if (!times_.empty() && in_last_ < width_) {
+    times_.back().last = time;
+    Range* range = &ranges_[ranges_.size() - columns_];
+    for (const double value : values) (range++)->see(value);
+    ++in_last_;
+    return;
+  }
+  if (times_.size() == most_buckets_) halve();
+  add_bucket(time, values);
+}
+
+std::size_t Decimator::points() const { return thins() ? 2 * shown_buckets() : samples_; }
+
+std::size_t Decimator::begin_of(std::size_t shown) const {
+  return shown * times_.size() / shown_buckets();
+}
+
+std::vector<double> Decimator::times() const {
+  std::vector<double> times;
+  if (!thins()) {
+    for (const Interval& bucket : times_) times.push_back(bucket.first);
+    return times;
+  }
+  for (std::size_t i = 0; i < shown_buckets(); ++i) {
+    times.push_back(times_[begin_of(i)].first);
+    times.push_back(times_[begin_of(i + 1) - 1].last);
+  }
+  return times;
+}
+
+std::vector<double> Decimator::extremes(std::size_t column) const {
+  std::vector<double> values;
+  if (!thins()) {
+    for (std::size_t i = 0; i < times_.size(); ++i)
+      values.push_back(ranges_[i * columns_ + column].least);
+    return values;
+  }
+  for (std::size_t i = 0; i < shown_buckets(); ++i) {
+    Range all = ranges_[begin_of(i) * columns_ + column];
+    for (std::size_t k = begin_of(i) + 1; k < begin_of(i + 1); ++k)
+      all.append(ranges_[k * columns_ + column]);
+    values.push_back(all.greatest_last ? all.least : all.greatest);
+    values.push_back(all.greatest_last ? all.greatest : all.least);
   }
   return values;
 }

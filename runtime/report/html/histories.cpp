@@ -24,15 +24,8 @@ constexpr std::size_t kMostPoints = 3000;
 constexpr std::size_t kMostNumbers = 300'000;
 constexpr std::size_t kLeastPoints = 200;
 
-struct Series {
-  std::string name;
-  std::function<double(const Observation&)> value;
-};
-
-struct Figure {
-  std::string title, unit, metric;  // metric: empty when nothing judges it
-  std::vector<Series> series;
-};
+using Series = Histories::Series;
+using Figure = Histories::Figure;
 
 Figure vector_figure(const char* title, const char* unit, const char* metric,
                      Vector3d Observation::*vector) {
@@ -123,122 +116,140 @@ std::vector<Figure> figures_of(const Model& model) {
   return figures;
 }
 
-class HistoryPrinter {
- public:
-  explicit HistoryPrinter(const ReportedMember& member);
-  Json print() const;
+std::vector<std::string> keys_of(const Model& model) {
+  std::vector<std::string> keys;
+  for (const MetricLaw& law : metric_laws(model)) keys.push_back(law.key);
+  return keys;
+}
 
- private:
-  const Trajectory& trajectory(std::size_t engine) const {
-    return member_.result.engines[engine].trajectory;
-  }
-  Json times() const;
-  Json figure_json(const Figure& figure) const;
-  Json difference_json(const Figure& figure) const;
-  Json metric_json(const std::string& key) const;
-  Json plain_differences(const Figure& figure) const;
-  Json conservation_figure() const;
+constexpr std::size_t kBalances = 3;
 
-  const ReportedMember& member_;
-  std::vector<Figure> figures_;
-  MetricCurves curves_;
-  std::vector<Decimation> decimations_;  // bsm, mujoco, what both have
-};
+std::size_t count_series(const std::vector<Figure>& figures) {
+  std::size_t count = 0;
+  for (const Figure& figure : figures) count += figure.series.size();
+  return count;
+}
+
+std::size_t count_unjudged(const std::vector<Figure>& figures) {
+  std::size_t count = 0;
+  for (const Figure& figure : figures)
+    if (figure.metric.empty()) count += figure.series.size();
+  return count;
+}
 
 /// How many points each column may have.
 std::size_t points_for(const std::vector<Figure>& figures) {
-  std::size_t columns = 10;  // times and conservation
-  for (const Figure& figure : figures) columns += 3 * figure.series.size();
+  const std::size_t columns = 10 + 3 * count_series(figures);  // 10: times and conservation
   return std::clamp(kMostNumbers / columns, kLeastPoints, kMostPoints);
 }
 
-HistoryPrinter::HistoryPrinter(const ReportedMember& member)
-    : member_(member),
-      figures_(figures_of(member.bundle.model)),
-      curves_(metric_curves(member.bundle.model, trajectory(0), trajectory(1))) {
-  const std::size_t points = points_for(figures_);
-  for (std::size_t engine : {0U, 1U})
-    decimations_.emplace_back(trajectory(engine).samples.size(), points);
-  decimations_.emplace_back(curves_.samples, points);
-}
+/// The figures as JSON, once all samples are there.
+class HistoryPrinter {
+ public:
+  HistoryPrinter(const Model& model, const Member& member, const std::vector<Figure>& figures,
+                 const std::vector<std::string>& metrics, const std::array<Decimator, 2>& engines,
+                 const Decimator& pairs)
+      : model_(model),
+        member_(member),
+        figures_(figures),
+        metrics_(metrics),
+        engines_(engines),
+        pairs_(pairs),
+        next_unjudged_(metrics.size()) {}
+
+  Json times() const;
+  /// Figures one after another: the columns of each follow those of the one before.
+  Json figures();
+  Json conservation(const std::array<ConservationMeter, 2>& books) const;
+
+ private:
+  const std::string& name(std::size_t engine) const { return member_.engines[engine].name; }
+  Json figure_json(const Figure& figure);
+  Json difference_json(const Figure& figure);
+  Json metric_json(const std::string& key) const;
+  Json plain_differences(const Figure& figure);
+
+  const Model& model_;
+  const Member& member_;
+  const std::vector<Figure>& figures_;
+  const std::vector<std::string>& metrics_;
+  const std::array<Decimator, 2>& engines_;
+  const Decimator& pairs_;
+  std::size_t next_series_ = 0, next_unjudged_;  // columns
+};
 
 Json HistoryPrinter::times() const {
   Json times = Json::object();
-  const auto add = [&](const std::string& name, std::size_t which, const Trajectory& source) {
-    if (decimations_[which].points() == 0) return;
-    times[name] = base64(
-        decimations_[which].instants([&source](std::size_t i) { return source.samples[i].time; }));
-  };
   for (std::size_t engine : {0U, 1U})
-    add(member_.result.engines[engine].name, engine, trajectory(engine));
-  add("difference", 2, trajectory(0));
+    if (engines_[engine].samples() > 0) times[name(engine)] = base64(engines_[engine].times());
+  if (pairs_.samples() > 0) times["difference"] = base64(pairs_.times());
   return times;
 }
 
 /// The very metric of the agreement table.
 Json HistoryPrinter::metric_json(const std::string& key) const {
-  const auto has_key = [&key](const auto& one) { return one.key == key; };
-  const auto curve = std::find_if(curves_.curves.begin(), curves_.curves.end(), has_key);
-  const auto [label, unit] = words_of(key, member_.bundle.model);
+  const auto column = std::find(metrics_.begin(), metrics_.end(), key) - metrics_.begin();
+  const auto [label, unit] = words_of(key, model_);
   Json json{{"unit", unit}, {"metric", key}, {"tolerance", nullptr}};
-  if (member_.result.comparison) {
-    const std::vector<Metric>& metrics = member_.result.comparison->metrics;
-    const auto metric = std::find_if(metrics.begin(), metrics.end(), has_key);
-    if (metric != metrics.end() && metric->tolerance) json["tolerance"] = *metric->tolerance;
-  }
-  json["series"] = {{{"name", label}, {"values", base64(decimations_[2].extremes(curve->at))}}};
+  if (member_.comparison)
+    for (const Metric& metric : member_.comparison->metrics)
+      if (metric.key == key && metric.tolerance) json["tolerance"] = *metric.tolerance;
+  json["series"] = {
+      {{"name", label}, {"values", base64(pairs_.extremes(static_cast<std::size_t>(column)))}}};
   return json;
 }
 
 /// Where no metric exists: component by component.
-Json HistoryPrinter::plain_differences(const Figure& figure) const {
+Json HistoryPrinter::plain_differences(const Figure& figure) {
   Json json{{"unit", figure.unit}, {"tolerance", nullptr}, {"series", Json::array()}};
-  for (const Series& series : figure.series) {
-    const Column column = [&](std::size_t i) {
-      return std::abs(series.value(trajectory(0).samples[i]) -
-                      series.value(trajectory(1).samples[i]));
-    };
+  for (const Series& series : figure.series)
     json["series"].push_back(
-        {{"name", series.name}, {"values", base64(decimations_[2].extremes(column))}});
-  }
+        {{"name", series.name}, {"values", base64(pairs_.extremes(next_unjudged_++))}});
   return json;
 }
 
-Json HistoryPrinter::difference_json(const Figure& figure) const {
-  if (curves_.samples == 0) return nullptr;
+Json HistoryPrinter::difference_json(const Figure& figure) {
+  if (pairs_.samples() == 0) return nullptr;
   return figure.metric.empty() ? plain_differences(figure) : metric_json(figure.metric);
 }
 
-Json HistoryPrinter::figure_json(const Figure& figure) const {
+Json HistoryPrinter::figure_json(const Figure& figure) {
   Json json{{"title", figure.title}, {"unit", figure.unit}, {"series", Json::array()}};
   for (const Series& series : figure.series) {
     Json one{{"name", series.name}};
-    for (std::size_t engine : {0U, 1U}) {
-      const std::vector<Observation>& samples = trajectory(engine).samples;
-      if (samples.empty()) continue;
-      one[member_.result.engines[engine].name] = base64(
-          decimations_[engine].extremes([&](std::size_t i) { return series.value(samples[i]); }));
-    }
+    for (std::size_t engine : {0U, 1U})
+      if (engines_[engine].samples() > 0)
+        one[name(engine)] = base64(engines_[engine].extremes(next_series_));
     json["series"].push_back(std::move(one));
+    ++next_series_;
   }
   json["difference"] = difference_json(figure);
   return json;
 }
 
-Json HistoryPrinter::conservation_figure() const {
+Json HistoryPrinter::figures() {
+  Json json = Json::array();
+  for (const Figure& figure : figures_) json.push_back(figure_json(figure));
+  return json;
+}
+
+Json HistoryPrinter::conservation(const std::array<ConservationMeter, 2>& books) const {
   Json json{{"title", "Imbalance of the conservation books"},
             {"unit", "1"},
             {"logarithmic", true},
             {"series", Json::array()}};
-  const auto add = [&](const char* name, double Conservation::*balance) {
-    Json one{{"name", name}};
+  std::size_t column = count_series(figures_);
+  const auto add = [&](const char* label, double Conservation::*balance) {
+    Json one{{"name", label}};
     for (std::size_t engine : {0U, 1U}) {
-      if (trajectory(engine).samples.empty()) continue;
-      const ConservationCurve curve(trajectory(engine));
-      one[member_.result.engines[engine].name] = base64(
-          decimations_[engine].extremes([&](std::size_t i) { return curve.at(i).*balance; }));
+      if (engines_[engine].samples() == 0) continue;
+      std::vector<double> values = engines_[engine].extremes(column);
+      const double scale = books[engine].scales().*balance;
+      for (double& value : values) value = ConservationMeter::relative(value, scale);
+      one[name(engine)] = base64(values);
     }
     json["series"].push_back(std::move(one));
+    ++column;
   };
   add("energy", &Conservation::energy);
   add("momentum", &Conservation::momentum);
@@ -246,24 +257,55 @@ Json HistoryPrinter::conservation_figure() const {
   return json;
 }
 
-Json HistoryPrinter::print() const {
-  const auto thins = [](const Decimation& one) { return one.thins(); };
-  const auto by_points = [](const Decimation& a, const Decimation& b) {
-    return a.points() < b.points();
-  };
-  Json json{
-      {"samples", std::max(trajectory(0).samples.size(), trajectory(1).samples.size())},
-      {"points", std::max_element(decimations_.begin(), decimations_.end(), by_points)->points()},
-      {"thinned", std::any_of(decimations_.begin(), decimations_.end(), thins)},
-      {"times", times()},
-      {"figures", Json::array()}};
-  for (const Figure& figure : figures_) json["figures"].push_back(figure_json(figure));
-  json["figures"].push_back(conservation_figure());
-  return json;
-}
-
 }  // namespace
 
-Json histories_json(const ReportedMember& member) { return HistoryPrinter(member).print(); }
+Histories::Histories(const Model& model)
+    : figures_(figures_of(model)),
+      metrics_(keys_of(model)),
+      engines_{Decimator(count_series(figures_) + kBalances, points_for(figures_)),
+               Decimator(count_series(figures_) + kBalances, points_for(figures_))},
+      pairs_(metrics_.size() + count_unjudged(figures_), points_for(figures_)) {}
+
+void Histories::take(std::size_t engine, const Observation& sample, const Books& books) {
+  std::vector<double>& row = row_.at(engine);
+  row.clear();
+  for (const Figure& figure : figures_)
+    for (const Series& series : figure.series) row.push_back(series.value(sample));
+  ConservationMeter& meter = books_.at(engine);
+  meter.take(sample, books);
+  const Conservation& imbalance = meter.imbalance();
+  row.insert(row.end(), {imbalance.energy, imbalance.momentum, imbalance.angular_momentum});
+  engines_.at(engine).take(sample.time, row);
+}
+
+void Histories::take_pair(const Observation& bsm, const Observation& mujoco,
+                          std::span<const double> metrics) {
+  std::vector<double>& row = row_[2];
+  row.assign(metrics.begin(), metrics.end());
+  for (const Figure& figure : figures_) {
+    if (!figure.metric.empty()) continue;
+    for (const Series& series : figure.series)
+      row.push_back(std::abs(series.value(bsm) - series.value(mujoco)));
+  }
+  pairs_.take(bsm.time, row);
+}
+
+Json Histories::json(const Model& model, const Member& member) const {
+  HistoryPrinter printer(model, member, figures_, metrics_, engines_, pairs_);
+  const std::array<const Decimator*, 3> all{&engines_[0], &engines_[1], &pairs_};
+  std::size_t points = 0;
+  bool thinned = false;
+  for (const Decimator* one : all) {
+    points = std::max(points, one->points());
+    thinned = thinned || one->thins();
+  }
+  Json json{{"samples", std::max(engines_[0].samples(), engines_[1].samples())},
+            {"points", points},
+            {"thinned", thinned},
+            {"times", printer.times()},
+            {"figures", printer.figures()}};
+  json["figures"].push_back(printer.conservation(books_));
+  return json;
+}
 
 }  // namespace twincraft

@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "runtime/report/html/histories.h"
+#include "runtime/report/html/page_series.h"
 #include "runtime/report/html/replay_data.h"
 #include "runtime/report/json.h"
 #include "runtime/report/words.h"
@@ -68,7 +68,7 @@ std::string page_data(const Report& report) {
             {"words", words_json(report, shown)},
             {"is_study", report.study.has_value()},
             {"is_work_precision", report.study && report.study->is_work_precision},
-            {"members_run", report.members.size()},
+            {"members_run", report.summary()->members()},
             {"members_planned", report.study ? report.study->members : 1},
             {"left_out", std::move(not_counted)},
             {"report", std::move(shown)},

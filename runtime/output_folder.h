@@ -1,0 +1,36 @@
+// One folder, one run: what an earlier run left under our names goes when a later one is done.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string_view>
+#include <vector>
+
+namespace twincraft {
+
+/// Files of a run in its folder, and that folder's members.
+class OutputFolder {
+ public:
+  explicit OutputFolder(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+  /// DIR, or DIR/0001 and so on: the first member's files lie beside the report.
+  std::filesystem::path of_member(std::size_t index) const;
+
+  /// This run wrote a file of ours for a member.
+  void wrote(std::size_t member, std::string_view name);
+
+  /// Removes files of our names that this run did not write: trajectories beside the report and in
+  /// folders of members, which go with their last file. Whatever else lies there stays, and so does
+  /// a folder with a report of its own. What cannot be removed stays silently: results are written.
+  void remove_leftovers() const;
+
+ private:
+  bool has_written(std::size_t member, std::size_t file) const;
+  void clean(const std::filesystem::path& folder, std::size_t member) const;
+
+  std::filesystem::path folder_;
+  std::vector<std::uint8_t> written_;  // a bit per file of a member
+};
+
+}  // namespace twincraft

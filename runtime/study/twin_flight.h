@@ -1,0 +1,19 @@
+// Both engines of a member through its plan, in alternate slices of time: they stay together, so
+// that their samples are compared as they come and an early end leaves a stretch that both have
+// flown. Nothing here grows with the number of samples, unless they are to be kept.
+#pragma once
+
+#include <memory>
+#include <string_view>
+
+#include "runtime/study/run.h"
+
+namespace twincraft {
+
+std::unique_ptr<Engine> build_engine(std::string_view name, const Bundle& bundle,
+                                     bsm::InstructionSet instructions);
+
+/// Fills in the member's engines, comparison and references. Numerical failures are part of them.
+void fly_both(const Bundle& bundle, const RunOptions& options, MemberWatch* watch, Member& member);
+
+}  // namespace twincraft
