@@ -78,10 +78,26 @@ std::vector<std::string> first_files(const Options& options) {
   return files;
 }
 
+/// The names of what is in the folder now.
+std::vector<std::string> written_files(const Outcome& outcome, const Options& options) {
+  std::vector<std::string> files{"report.json", "report.html"};
+  for (const EngineRun& run : outcome.report().members.front().result.engines) {
+    if (run.trajectory.samples.empty()) continue;
+    files.push_back(run.name + ".csv");
+    if (options.netcdf) files.push_back(run.name + ".nc");
+  }
+  if (outcome.members() == 2) files.emplace_back("0001/");
+  if (outcome.members() > 2)
+    files.push_back(fmt::format("0001/ to {:04}/", outcome.members() - 1));
+  return files;
+}
+
 /// Files first: a reader of the report who leaves early must not cost the results.
 int deliver(Outcome& outcome, const Options& options, const RunOptions& run, ProgressBar& bar) {
   const int written = outcome.write([&run](double done) { run.show("write", done); });
   bar.clear();
+  if (written == kExitDone && !options.folder.empty())
+    tell_written(written_files(outcome, options), options);
   if (!prints_report(options)) return written;
   const bool colour = wants_colour(STDOUT_FILENO);
   const Report& report = outcome.report();

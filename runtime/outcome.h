@@ -24,6 +24,7 @@ class Outcome {
 
   const Report& report() const { return report_; }
   bool empty() const { return report_.members.empty(); }
+  std::size_t members() const { return taken_; }
   /// Of the members' own files.
   SharedOutput& output() { return output_; }
 

@@ -6,6 +6,8 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <functional>
+
 #include "runtime/report/printed_time.h"
 
 namespace twincraft {
