@@ -236,12 +236,24 @@ Matrix3d segment_inertia(const PanelSpec& panel) {
   return inertia_of(*shape, segment_mass(panel), segment_length(panel));
 }
 
+namespace {
+
+double inertia_about_hinge(const PanelSpec& panel) {
+  const double d = segment_length(panel) / 2.0;
+  return segment_inertia(panel)(1, 1) + segment_mass(panel) * d * d;
+}
+
+}  // namespace
+
 std::optional<double> segment_period(const PanelSpec& panel) {
   const double k = *std::max_element(panel.stiffness.begin(), panel.stiffness.end());
   if (!(k > 0.0)) return std::nullopt;
-  const double d = segment_length(panel) / 2.0;
-  const double J = segment_inertia(panel)(1, 1) + segment_mass(panel) * d * d;
-  return 2.0 * std::numbers::pi * std::sqrt(J / k);
+  return 2.0 * std::numbers::pi * std::sqrt(inertia_about_hinge(panel) / k);
+}
+
+double fastest_decay(const PanelSpec& panel) {
+  const double c = *std::max_element(panel.damping.begin(), panel.damping.end());
+  return (panel.segments > 1 ? 16.0 : 1.0) * c / inertia_about_hinge(panel);
 }
 
 void check(const PanelSpec& panel, const Names& names, Diagnostics& diagnostics) {

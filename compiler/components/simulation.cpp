@@ -29,7 +29,9 @@ const Table<StepRule>& rule_table() {
           required("of", &StepRule::of, reference_to("oscillator"),
                    "Whose period counts. A panel: its segment's, 2 pi sqrt((I + m d^2)/k), with "
                    "several stiffnesses the shortest. A particle: 2 pi sqrt(m/k). A pendulum: "
-                   "2 pi sqrt(L/a), a the thrust at t = 0 over the vehicle's mass."),
+                   "2 pi sqrt(L/a), a the thrust at t = 0 over the vehicle's mass. Where dampers "
+                   "are faster than springs, the step also stays below 1.8 time constants of the "
+                   "fastest one, as no longer step is stable."),
           optional("maximum", &StepRule::maximum, maybe(quantity("s", Range::kPositive)),
                    "The step is never longer; default no limit."),
       }};
@@ -87,6 +89,10 @@ const Table<BlockTolerancesSpec>& blocks_table() {
   return table;
 }
 
+// Every explicit method here is stable up to a step of 2 time constants of a damper; less a tenth,
+// because the rate that counts is the whole vehicle's.
+constexpr double kMostDecay = 1.8;
+
 const Oscillator* find(const std::vector<Oscillator>& oscillators, const std::string& name) {
   const auto found = std::find_if(oscillators.begin(), oscillators.end(),
                                   [&](const Oscillator& each) { return each.name == name; });
@@ -94,7 +100,8 @@ const Oscillator* find(const std::vector<Oscillator>& oscillators, const std::st
 }
 
 double step_of_rule(const StepRule& rule, const Oscillator& oscillator) {
-  const double step = oscillator.period.value() / rule.per_period;
+  double step = oscillator.period.value() / rule.per_period;
+  if (oscillator.decay > 0.0) step = std::min(step, kMostDecay / oscillator.decay);
   return rule.maximum ? std::min(*rule.maximum, step) : step;
 }
 

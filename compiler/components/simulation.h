@@ -18,7 +18,7 @@ enum class SimulationMode {
   kTranslation,  // a point mass without attitude
 };
 
-/// min(maximum, period of `of` / per_period)
+/// min(maximum, period of `of` / per_period), and never so long that its dampers are unstable
 struct StepRule : Written {
   double per_period = 0.0;
   std::string of;                 // a panel, particle or pendulum
@@ -37,6 +37,7 @@ struct Oscillator {
   std::optional<double> period;  // [s]
   std::string lack;              // why there is none: "no hinge of it has stiffness"
   Span span;                     // what to point at then
+  double decay = 0.0;            // [1/s] no damper of it decays faster
 };
 
 /// A plain number is both parts.

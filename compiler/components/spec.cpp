@@ -89,11 +89,12 @@ double total_mass(const Spec& spec) {
 Oscillator oscillator(const SloshSpec& slosh, double acceleration) {
   if (const auto* pendulum = std::get_if<PendulumSpec>(&slosh)) {
     return {pendulum->name, fmt::format("pendulum `{}`", pendulum->name),
-            period_of(*pendulum, acceleration), "no thruster burns at t = 0", pendulum->span()};
+            period_of(*pendulum, acceleration), "no thruster burns at t = 0", pendulum->span(),
+            pendulum->damping / pendulum->mass};
   }
   const auto& particle = std::get<ParticleSpec>(slosh);
   return {particle.name, fmt::format("particle `{}`", particle.name), period_of(particle),
-          "it has no stiffness", particle.span_of("stiffness")};
+          "it has no stiffness", particle.span_of("stiffness"), particle.damping / particle.mass};
 }
 
 }  // namespace
@@ -102,7 +103,8 @@ std::vector<Oscillator> oscillators(const Spec& spec) {
   std::vector<Oscillator> all;
   for (const PanelSpec& panel : spec.panels) {
     all.push_back({panel.name, fmt::format("panel `{}`", panel.name), segment_period(panel),
-                   "no hinge of it has stiffness", panel.span_of("stiffness")});
+                   "no hinge of it has stiffness", panel.span_of("stiffness"),
+                   fastest_decay(panel)});
   }
   const double acceleration = thrust_at_start(spec.thrusters).norm() / total_mass(spec);
   for (const SloshSpec& slosh : spec.slosh) all.push_back(oscillator(slosh, acceleration));

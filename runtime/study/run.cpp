@@ -2,6 +2,8 @@
 // Tested by tests/agreement/scsim_test.cpp.
 #include "runtime/study/run.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
