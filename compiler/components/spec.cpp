@@ -122,8 +122,9 @@ const Table<Spec>& spec_table() {
       "number is in SI units; a text such as `12 deg` carries its unit. Quotes "
       "about either change nothing. Units are those of UDUNITS-2. Where its database rounds a "
       "multiple of the pound, the exact value holds: a slug is 1 lbf s2/ft. In SI units no "
-      "quantity may exceed 1e30, and one that must be positive is at least 1e-30: the engines form "
-      "products of up to ten quantities, and a double ends at 1e-308 and 1e308.",
+      "quantity may exceed 1e30, and one that must be positive, other than a time, is at least "
+      "1e-30: the engines form products of up to ten quantities, and a double ends at 1e-308 and "
+      "1e308.",
       {
           required(
               "format", &Spec::format, text(),

@@ -165,7 +165,9 @@ Kind<double> unjudged_quantity(SiUnit si, Range range) {
                                               ReadContext& context) -> std::optional<double> {
         const std::optional<double> value = read_quantity(node, unit, {}, context);
         if (!value || !check_range(*value, range, node, context)) return std::nullopt;
-        if (!check_magnitude(*value, range, node, context)) return std::nullopt;
+        // A time only multiplies rates: as short as it may be, nothing divides by its square.
+        const Range least = unit == "s" ? Range::kAny : range;
+        if (!check_magnitude(*value, least, node, context)) return std::nullopt;
         return value;
       },
       .write = [](const double& value) -> Json { return value; },

@@ -58,9 +58,9 @@ Json number_schema(Range range);
 /// Whether `value`, written as `node`, lies in `range`; if not, that is reported.
 bool check_range(double value, Range range, const Node& node, ReadContext& context);
 
-/// The least magnitude of a quantity that must be positive, and the largest of any, in SI units.
-/// The engines form products of up to ten of them, such as m^2 r^4 Omega^4, and a double holds
-/// 1e-308 to 1e308.
+/// The least magnitude of a quantity that must be positive and is no time, and the largest of any,
+/// in SI units. The engines form products of up to ten of them, such as m^2 r^4 Omega^4, and a
+/// double holds 1e-308 to 1e308.
 inline constexpr double kLeastMagnitude = 1.0e-30;
 inline constexpr double kLargestMagnitude = 1.0e30;
 
