@@ -107,7 +107,7 @@ std::vector<ProofLine> compare_held(const Assembly& assembly, const HeldMachine&
     add("springs and dampers", 1, spring_difference);
   }
   if (a.wheels.empty()) return lines;
-  ProofLine wheels{"axes and inertias of wheels", 0.0, {}};
+  ProofLine wheels{"wheel axes and inertias", 0.0, {}};
   for (std::size_t i = 0; i < a.wheels.size(); ++i)
     keep(wheels, wheel_difference(a.wheels[i], b.wheels[i]), assembly.rotors[i].name);
   lines.push_back(wheels);
