@@ -171,11 +171,10 @@ struct RigidRocket {
     const Vector3d omega = dcm * now.I_PntC_L.ldlt().solve(dcm.transpose() * H_PntC);
     return {dcm, x.p / now.mass - omega.cross(c), omega, now.mass};
   }
+  /// The centre of mass at rest at the origin.
   State start(const Vector3d& omega) const {
     const MassProperties now = body(0.0);
-    const Vector3d v_C = omega.cross(now.r_CL_L);
-    return {Vector3d::Zero(), now.mass * v_C,
-            now.mass * now.r_CL_L.cross(v_C) + now.I_PntC_L * omega, Eigen::Vector4d::Unit(0)};
+    return {-now.r_CL_L, Vector3d::Zero(), now.I_PntC_L * omega, Eigen::Vector4d::Unit(0)};
   }
   State rate(double time, const State& x) const {
     const Motion m = motion(time, x);
@@ -382,7 +381,7 @@ TEST(Jet, PushesEveryBodyByItsShareOfTheStream) {
           accelerations_of(derivative(*without[i], state.time, x), layout);
       const Eigen::VectorXd Q = stream_forces(jet.model, state);
       const Eigen::VectorXd found = with[i]->mass_matrix(span_of(x)) * change;
-      ASSERT_GT(Q.norm(), 1.0);
+      ASSERT_GT(Q.norm(), 0.1);
       // Central differences over 1e-4.
       EXPECT_LT((found - Q).norm(), 1e-7 * Q.norm()) << with[i]->name();
     }
@@ -402,7 +401,7 @@ TEST(Jet, FliesAlikeInBothEngines) {
   ASSERT_EQ(alike.metrics.at(0).key, "attitude_deg");
   // RK4 errs differently in MRPs and quaternions.
   EXPECT_LT(alike.metrics.at(0).maximum, 1e-6);
-  EXPECT_GT(other.metrics.at(0).maximum, 10.0);
+  EXPECT_GT(other.metrics.at(0).maximum, 1.0);
 }
 
 TEST(Jet, FliesAlikeToRoundingInOneChart) {
@@ -423,9 +422,9 @@ TEST(Jet, KeepsTheOrderOfTheIntegrator) {
       state << last.omega_BN_B, last.v_BN_N;
       return state;
     };
-    // 0.11 s divides neither the burns nor the run: steps are split at every event.
-    const Eigen::VectorXd truth = end(0.11 / 16.0);
-    const double ratio = (end(0.11) - truth).norm() / (end(0.055) - truth).norm();
+    // 0.033 s divides neither the burns nor the run: steps are split at every event.
+    const Eigen::VectorXd truth = end(0.033 / 16.0);
+    const double ratio = (end(0.033) - truth).norm() / (end(0.0165) - truth).norm();
     EXPECT_GT(ratio, 12.0) << engine->name();
     EXPECT_LT(ratio, 24.0) << engine->name();
   }
