@@ -26,6 +26,7 @@ export const unresolved = () => ({
   step_s: 0.02, largest_stable_step_s: 0.106, advised_step_s: 0.005,
   energy: { bsm: { exchanged_J: 1.5, drift_J: 1.5, relative: 1 }, mujoco: { exchanged_J: 1.5, drift_J: 1.49, relative: 0.993 } },
   reasons: ["w.1 swings at 26.6 rad/s, undamped: rk4 at 0.02 s gives a period 12 steps and loses 33 % of its motion in 85 periods (limit 5 %)"],
+  remarks: ["the orbit is not looked at"],
 });
 
 /** Makes the engines of a member stop. @param {any} member @param {number} t [s] */

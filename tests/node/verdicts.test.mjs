@@ -75,6 +75,7 @@ describe("a run", () => {
     assert.match(values[facts["largest loss"]], /^w\.1: 33 % of its motion$/);
     assert.equal(values[facts["largest stable step"]], "106 ms");
     assert.equal(values[facts["advised step"]], "5 ms");
+    assert.deepEqual(await texts(page, "#resolution .note"), ["the orbit is not looked at."]);
     assert.deepEqual(await page.evaluate(() => [...document.querySelectorAll("#resolution td")].map((c) => Number(c.dataset.value))), [1.5, 1.5, 1, 1.5, 1.49, 0.993]);
     assert.deepEqual([...new Set(await texts(page, "#agreement td.unjudged"))].sort(), ["not judged", "unresolved"]);
     await page.context().close();

@@ -51,6 +51,10 @@ function section(title, ...children) {
 /** @param {string} text @param {...Child} more */
 const note = (text, ...more) => html("p", { class: "note" }, text, ...more);
 
+/** A sentence, in which a flag with its value (`--step '2 ms'`) stays on one line to be copied.
+ *  @param {string} text */
+const withCommands = (text) => text.split(/(--[a-z-]+ '[^']*')/).map((piece, i) => (i % 2 === 1 ? html("code", {}, piece) : piece));
+
 /**
  * A button that saves text as a file.
  * @param {string} label

@@ -132,13 +132,14 @@ function compose() {
   const main = /** @type {HTMLElement} */ (document.getElementById("main"));
   const put = (/** @type {string} */ id, /** @type {string} */ text) => { /** @type {HTMLElement} */ (document.getElementById(id)).textContent = text; };
   showVerdict();
-  put("verdict-detail", verdictDetail());
+  document.getElementById("verdict-detail")?.replaceChildren(...withCommands(verdictDetail()));
   put("setting", [page.vehicle, page.plan, page.depletion].filter(Boolean).join(" · "));
   main.append(...[
     ...part("The study", () => page.is_study ? studySections() : []),
     ...part("Why they differ", () => [attributionSection()]),
+    ...part("Why an engine has no result", () => engineRemarks(first)),
     ...part("Resolution", () => [resolutionSection(first)]),
-    ...part("Agreement", () => [...engineRemarks(first), agreementSection(first)]),
+    ...part("Agreement", () => [agreementSection(first)]),
     ...part("References", () => [referenceSection(first)]),
     ...part("Conservation", () => [conservationSection(first)]),
     ...part("Cost", () => [costSection(first)]),

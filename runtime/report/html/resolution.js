@@ -27,11 +27,13 @@ function resolutionRows(resolution) {
   const rows = [];
   if (resolution.rule) rows.push(["what failed first", ruleWords[resolution.rule] || resolution.rule]);
   if (fastest && known(fastest.rate_rad_s)) rows.push(["fastest motion", fastestWords(fastest)]);
-  if (worst && known(worst.error_relative)) rows.push(["largest loss", `${worst.coordinate}: ${percent(worst.error_relative)} of its motion`]);
+  if (worst && known(worst.error_relative)) rows.push(["largest loss", `${worst.coordinate || "the vehicle"}: ${percent(worst.error_relative)} of its motion`]);
   if (known(attitude)) rows.push(["attitude error, estimated", `${written(attitude)} deg`]);
   if (known(step)) rows.push(["step", duration(step)]);
   if (known(stable)) rows.push(["largest stable step", duration(stable)]);
   if (known(advised)) rows.push(["advised step", duration(advised)]);
+  if (known(resolution.advised_rk4_step_s)) rows.push(["advised step of rk4", duration(resolution.advised_rk4_step_s)]);
+  if (known(resolution.advised_tolerance)) rows.push(["advised tolerance, relative", written(resolution.advised_tolerance)]);
   return rows;
 }
 
@@ -45,16 +47,23 @@ function ownEnergyTable(energy) {
       numberCell(energy[key].exchanged_J, "J"), numberCell(energy[key].drift_J, "J"), numberCell(energy[key].relative)] })));
 }
 
+/** @param {any} member @param {string[]} reasons */
+function resolutionWords(member, reasons) {
+  if (member.resolution.resolved) return html("p", {}, "The run resolves the vehicle's own motion.");
+  return html("p", { class: "unresolved" }, memberVerdict(member) === "failed" && reasons.length === 0
+    ? "The run stopped, and no mode of the vehicle explains it."
+    : "The run does not resolve the vehicle's own motion: whether the engines agree says nothing.");
+}
+
 /** @param {any} member */
 function resolutionSection(member) {
   const { resolution } = member;
   if (!resolution) return null;
   const reasons = (resolution.reasons || []).map(String);
-  const said = resolution.resolved ? html("p", {}, "The step resolves the vehicle's own motion.")
-    : html("p", { class: "unresolved" }, "The run does not resolve the vehicle's own motion: whether the engines agree says nothing.");
   const rows = resolutionRows(resolution);
-  return section("Resolution", said,
-    reasons.length > 0 ? html("ul", { class: "reasons" }, ...reasons.map((/** @type {string} */ text) => html("li", {}, text))) : null,
+  return section("Resolution", resolutionWords(member, reasons),
+    reasons.length > 0 ? html("ul", { class: "reasons" }, ...reasons.map((/** @type {string} */ text) => html("li", {}, ...withCommands(text)))) : null,
     rows.length > 0 ? html("dl", { class: "facts" }, ...rows.flatMap(([key, value]) => [html("dt", {}, key), html("dd", {}, value)])) : null,
+    ...(resolution.remarks || []).map((/** @type {unknown} */ text) => note(`${String(text)}.`)),
     ownEnergyTable(resolution.energy));
 }
