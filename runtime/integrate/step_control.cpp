@@ -117,7 +117,7 @@ void StepControl::add_accepted(const RungeKutta& stepper, AcceptedErrors& accept
 }
 
 double StepControl::advance(RungeKutta& stepper, double from, double to, StepCounts& counts,
-                            AcceptedErrors& accepted, const std::atomic<bool>* stop) const {
+                            const std::atomic<bool>* stop, AcceptedErrors* accepted) const {
   const double exponent = stepper.tableau().control_exponent();
   const double smallest = 16.0 * std::numeric_limits<double>::epsilon() * std::abs(to);
   double time = from;
@@ -132,7 +132,7 @@ double StepControl::advance(RungeKutta& stepper, double from, double to, StepCou
     ++counts.driven_by[static_cast<std::size_t>(verdict.block)];
     const double next = h * step_factor(verdict.ratio, exponent);
     if (verdict.passes()) {
-      add_accepted(stepper, accepted);
+      if (accepted != nullptr) add_accepted(stepper, *accepted);
       stepper.accept();
       ++counts.accepted;
       time = reaches_end ? to : time + h;

@@ -53,7 +53,7 @@ class StepControl {
   /// reached, which is `to` unless `*stop` became true. @throws NumericalFailure when the step
   /// underflows
   double advance(RungeKutta& stepper, double from, double to, StepCounts& counts,
-                 AcceptedErrors& accepted, const std::atomic<bool>* stop = nullptr) const;
+                 const std::atomic<bool>* stop = nullptr, AcceptedErrors* accepted = nullptr) const;
 
  private:
   struct Range {

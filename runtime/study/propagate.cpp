@@ -177,7 +177,7 @@ class Run {
   void advance_adaptively(double to, const std::atomic<bool>* stop) {
     excusing_.forgive();
     try {
-      time_ = control_.advance(stepper_, time_, to, counts_, accepted_, stop);
+      time_ = control_.advance(stepper_, time_, to, counts_, stop, &accepted_);
     } catch (const NumericalFailure&) {
       if (excusing_.excuse().empty()) throw;
       throw NumericalFailure(excusing_.excuse() + ", however short the step");

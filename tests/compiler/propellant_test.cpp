@@ -94,7 +94,7 @@ TEST(Nozzle, IsWhereAThrusterOfAJetTankSits) {
 }
 
 TEST(Nozzle, IsNoneOfATankWhosePropellantTakesNothingAlong) {
-  for (const std::string& depletion : {"", ", depletion: {momentum: none}", ", depletion: {}"}) {
+  for (const std::string depletion : {"", ", depletion: {momentum: none}", ", depletion: {}"}) {
     const Trial trial(brick_with(tank(kSphere, depletion) + "thrusters:\n" +
                                  engine(", tank: main, during: [[10, 60]]")));
     ASSERT_TRUE(trial.model) << testing::PrintToString(trial.faults());
