@@ -12,7 +12,7 @@ namespace twincraft {
 namespace {
 
 Kind<std::optional<double>> tolerance(SiUnit unit) {
-  return maybe(quantity(unit, Range::kNotNegative));
+  return maybe(quantity(unit, Range::kNotNegative, Usual{}));  // a tolerance is of any size
 }
 
 Kind<std::optional<double>> relative() { return maybe(number(Range::kNotNegative)); }

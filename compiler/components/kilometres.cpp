@@ -51,6 +51,14 @@ bool is_bare(const Node* node) {
                              [](const Node* each) { return is_bare_number(*each); });
 }
 
+/// The first that is not zero, which needs no unit. @pre one is not
+const Node& first_number(const Node& written) {
+  const std::vector<const Node*> scalars = scalars_of(written);
+  const auto found = std::ranges::find_if(
+      scalars, [](const Node* each) { return parse_number(each->scalar).value != 0.0; });
+  return **found;
+}
+
 /// @return whether there was something to warn of
 bool warn_of_mu(const GravitySpec& gravity, double distance, Diagnostics& diagnostics) {
   constexpr double kLargestSmallBody = 1.0e13;  // [m3/s2]; of moons and less
@@ -80,8 +88,7 @@ void warn_of_length(const Node* written, const char* where, double length, doubl
   constexpr double kSmallestPlanet = 1.0e10;  // [m3/s2]; below it metres may be meant
   const double ball = radius_of(mu, 8000.0);  // of iron: what has this gravity is larger
   if (!is_bare(written) || mu < kSmallestPlanet || length == 0.0 || length > ball) return;
-  const Node& first = *scalars_of(*written).front();
-  warn_of_bare_number(first,
+  warn_of_bare_number(first_number(*written),
                       fmt::format("{:.6g} m from the centre is inside a body of this `mu`, which "
                                   "has a radius of {:.2g} km or more",
                                   length, ball / kKilometre),

@@ -39,7 +39,7 @@ void report_triangle(const Vector3d& moments, Span span, std::string message,
   constexpr double kLooksRounded = 5.0e-3;  // three digits of a data sheet
   const double lacking = moments[2] - moments[0] - moments[1];
   const double part = lacking / moments[2];
-  message += fmt::format("; the sum of the smaller two lacks {:.2g} kg m2 ({:.1g} %)", lacking,
+  message += fmt::format("; the sum of the smaller two lacks {:.2g} kg m2 ({:.2g} %)", lacking,
                          100.0 * part);
   const bool rounded = part < kLooksRounded;
   diagnostics.error(Code::kInertiaTriangle, span, std::move(message))

@@ -75,6 +75,7 @@ bool is_common(const std::string& name) {
 
 /// `kgm` as `kg m`: a product whose blanks were left out. Empty when it is none.
 std::string taken_apart(const std::string& name) {
+  if (name.ends_with('s') && is_common(name.substr(0, name.size() - 1))) return {};  // a plural
   for (std::size_t length = 1; length < name.size(); ++length) {
     const std::string first = name.substr(0, length);
     const std::string rest = name.substr(length);

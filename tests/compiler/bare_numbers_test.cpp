@@ -71,10 +71,10 @@ TEST(MixedUnits, AreSaidAtTheFirstEntryWithoutAUnit) {
 }
 
 TEST(MixedUnits, AreSaidOfSchedulesAndIntervals) {
-  EXPECT_THAT(warning_of(schedule("N m"), "[[0, 10 mN m], [5, 20]]"), StartsWith("1:22 SC2017"));
+  EXPECT_THAT(warning_of(schedule("N m"), "[[0, 10 mN m], [5, 20]]"), StartsWith("1:20 SC2017"));
   EXPECT_THAT(warning_of(schedule("N m"), "[[1 min, 1], [90, 2]]"), StartsWith("1:15 SC2017"));
   EXPECT_THAT(warning_of(schedule3("N"), "[5 mN, 3, 0]"), StartsWith("1:8 SC2017"));
-  EXPECT_THAT(warning_of(schedule3("N"), "[[[0, 5 mN]], 3, 0]"), StartsWith("1:16 SC2017"));
+  EXPECT_THAT(warning_of(schedule3("N"), "[[[0, 5 mN]], 3, 0]"), StartsWith("1:15 SC2017"));
   EXPECT_THAT(warning_of(intervals(), "[[0, 5 min], [400, 500]]"), StartsWith("1:15 SC2017"));
 }
 

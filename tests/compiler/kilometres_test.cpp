@@ -49,7 +49,9 @@ TEST(Kilometres, AreNoticedInAnOrbitInsideItsBody) {
 
 TEST(Kilometres, PerSecondAreNoticedInAVelocity) {
   EXPECT_THAT(said_about("3.986e14", "position: [7000 km, 0, 0], velocity: [0, 7.5, 0]"),
-              ElementsAre(HasSubstr("7.5 m/s, where a circular orbit has 7546 m/s")));
+              ElementsAre(AllOf(HasSubstr("the plain number `7.5`: 7.5 m/s, where a circular orbit "
+                                          "has 7546 m/s"),
+                                HasSubstr("write `7.5 km/s`"))));
 }
 
 TEST(Kilometres, AreNotSeenWhereMetresAreMeant) {
