@@ -33,7 +33,8 @@ std::string step_words(double step) {
 
 std::string loss_words(double share) {
   if (!(share < 9.995)) return "far more than all";
-  return fmt::format("{:.2g} %", 100.0 * share);
+  return share < 1.0 ? fmt::format("{:.2g} %", 100.0 * share)
+                     : fmt::format("{:.0f} %", 100.0 * share);
 }
 
 void conclude(std::vector<Finding> findings, std::string_view cure, Resolution& resolution) {

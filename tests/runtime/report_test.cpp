@@ -164,7 +164,7 @@ TEST(ReportJson, GivesTrialsMedianAndRatio) {
 TEST(ReportJson, SaysWhyAnEngineWasSkippedAndNothingElseOfIt) {
   Report report = sound_report();
   Member& result = report.members[0].result;
-  result.engines[1] = {"mujoco", EngineRun::Status::kSkipped, "a chain too deep", {}, {}};
+  result.engines[1] = {"mujoco", EngineRun::Status::kSkipped, "a chain too deep", {}, {}, {}};
   result.comparison.reset();
   result.conservation.clear();
   result.timing.reset();
@@ -324,7 +324,7 @@ TEST(Table, PaintsAFailureOnATerminal) {
 TEST(Table, SaysWhyNothingWasJudged) {
   Report report = sound_report();
   Member& result = report.members[0].result;
-  result.engines[1] = {"mujoco", EngineRun::Status::kSkipped, "a chain too deep", {}, {}};
+  result.engines[1] = {"mujoco", EngineRun::Status::kSkipped, "a chain too deep", {}, {}, {}};
   result.comparison.reset();
   result.conservation.clear();
   EXPECT_THAT(report_table(report.members[0], false),
