@@ -193,6 +193,7 @@ int compile_spec(const CommonOptions& options, Sources& sources, CompileResult& 
   }
   judge_warnings(options.warnings, diagnostics);
   if (const int code = print_diagnostics(diagnostics, options); code != kExitDone) return code;
+  if (result.bad_override) return kExitUsage;
   return result.bundle && !diagnostics.has_errors() ? kExitDone : kExitFindings;
 }
 

@@ -204,8 +204,8 @@ int compile_and_simulate(const Options& options) {
   Sources sources;
   CompileResult result;
   if (const int code = compile_spec(options, sources, result); code != kExitDone) return code;
-  if (const int code = check_resources(result, options); code != kExitDone) return code;
   if (const int code = check_writable(first_files(options)); code != kExitDone) return code;
+  if (const int code = check_resources(result, options); code != kExitDone) return code;
   return simulate(std::move(result), options);
 }
 

@@ -103,7 +103,7 @@ void warn_of_speed(const InitialSpec& initial, double mu, Diagnostics& diagnosti
   const double part = speed * kKilometre / circular;
   if (!is_bare(written) || part < 0.3 || part > 3.0) return;
   warn_of_bare_number(
-      *scalars_of(*written).front(),
+      first_number(*written),
       fmt::format("{:.4g} m/s, where a circular orbit has {:.4g} m/s", speed, circular), "km/s",
       "m/s", {diagnostics, "`velocity` of initial"});
 }

@@ -100,7 +100,7 @@ TEST(Panel, TakesANumberForAllHingesOrForTheRoot) {
 TEST(Panel, RefusesListsThatDoNotMatchItsHinges) {
   const Trial trial(
       wing("    inertia: {shape: bar}\n    segments: 3\n    stiffness: [600]\n"
-           "    rate: [1, 2, 3, 4]\n"));
+           "    rate: [1, 2, 3, 3]\n"));
   EXPECT_THAT(trial.faults(),
               ElementsAre(HasSubstr("15:16 SC3202 `stiffness` of panel `wing` lists 1 values for 3 "
                                     "hinges"),

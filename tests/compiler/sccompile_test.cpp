@@ -276,7 +276,7 @@ INSTANTIATE_TEST_SUITE_P(
               "did you mean `mjcf`?"},
         Usage{"no_target", "x.yaml --emit ''", "`--emit` is empty", "give it a value"},
         Usage{"no_folder", "x.yaml -o ''", "`-o` names no folder", "write for example `-o out`"},
-        Usage{"no_spec_name", "''", "`SPEC` is empty", "`sccompile --help`"},
+        Usage{"no_spec_name", "''", "`SPEC` is empty", "give it a value"},
         Usage{"unknown_format", "x.yaml --diagnostics jsno", "`--diagnostics` cannot be `jsno`",
               "did you mean `json`?"},
         Usage{"no_value", "x.yaml --set", "--set", "`sccompile --help`"},

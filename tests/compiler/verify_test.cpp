@@ -129,7 +129,7 @@ INSTANTIATE_TEST_SUITE_P(
                "stands for another rotor"},
         Damage{"lost_coordinate", [](Model& m) { m.coordinates.pop_back(); },
                "3 coordinates are named"},
-        Damage{"lost_gravity", [](Model& m) { m.tree.bodies[4].elements.clear(); },
+        Damage{"lost_gravity", [](Model& m) { m.tree.bodies[1].elements.clear(); },
                "gravity pulls on other masses at `boom`"}),
     [](const auto& instance) { return instance.param.name; });
 

@@ -100,7 +100,7 @@ class Disk(Faults):
                 pass
         for program in ([SCCOMPILE], [SCSIM, "--quiet", *SHORT]):
             run = self.run_in([*program, QUICKSTART, "-o", "out", "--set", "hub.mass=700"])
-            self.assert_fails(run, 3, "no space left")
+            self.assert_fails(run, 3, "bytes are free")
             self.assertEqual(sorted([*old, "ballast"]), self.files())
         (self.folder / "out/ballast").unlink()
         self.assert_old_files(old)

@@ -202,9 +202,9 @@ TEST_F(Comparing, NeedsBothRunsToTheEnd) {
   model.agreement.rate = 1.0e-9;
   b.status = Trajectory::Status::kInterrupted;
   b.samples.pop_back();
-  EXPECT_EQ(verdict(), Verdict::kNotJudged);
+  EXPECT_EQ(verdict(), Verdict::kInterrupted);
   b.samples[1].omega_BN_B.x() = 1.0;
-  EXPECT_EQ(verdict(), Verdict::kDisagree);
+  EXPECT_EQ(verdict(), Verdict::kInterrupted);
 }
 
 TEST_F(Comparing, ComparesOnlySamplesOfTheSameInstant) {
