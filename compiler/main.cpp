@@ -117,8 +117,7 @@ void warn_of_idle_flags(const CLI::App& app, const Options& options) {
   };
   if (options.check) warn("--check", {"-o", "--emit"});
   for (const char* only : {"--schema", "--reference", "--explain"})
-    if (app.get_option(only)->count() > 0)
-      warn(only, {"SPEC", "-o", "--emit", "--set", "--check"});
+    if (app.get_option(only)->count() > 0) warn(only, {"SPEC", "-o", "--emit", "--set", "--check"});
 }
 
 /// A document, for programs: its bytes reach them as they are.

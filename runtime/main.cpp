@@ -87,8 +87,7 @@ std::vector<std::string> written_files(const Outcome& outcome, const Options& op
     if (options.netcdf) files.push_back(run.name + ".nc");
   }
   if (outcome.members() == 2) files.emplace_back("0001/");
-  if (outcome.members() > 2)
-    files.push_back(fmt::format("0001/ to {:04}/", outcome.members() - 1));
+  if (outcome.members() > 2) files.push_back(fmt::format("0001/ to {:04}/", outcome.members() - 1));
   return files;
 }
 
@@ -185,17 +184,17 @@ double kept_trajectories(const StudyPlan& plan, int jobs) {
   return 2.0 * (baselines + (1.0 + kEarlyResults) * jobs);
 }
 
-/// Whether memory and disk hold what this run needs, said now. @return the exit code
-int check_resources(const CompileResult& compiled, const Options& options) {
+/// Whether memory holds what this run keeps, said now. @return the exit code
+int check_kept(const CompileResult& compiled, const Options& options) {
+  if (!compiled.study) return kExitDone;
+  const int jobs = options.trials > 0 ? 1 : jobs_of(options);
+  return check_memory(compiled, kept_trajectories(compiled.study->plan(), jobs), options);
+}
+
+/// The same of the disk and what it writes.
+int check_written(const CompileResult& compiled, const Options& options) {
   const Model& model = compiled.bundle->model;
-  double members = 1.0;
-  if (compiled.study) {
-    const StudyPlan& plan = compiled.study->plan();
-    members = static_cast<double>(plan.members);
-    const int jobs = options.trials > 0 ? 1 : jobs_of(options);
-    const int code = check_memory(compiled, kept_trajectories(plan, jobs), options);
-    if (code != kExitDone) return code;
-  }
+  const double members = compiled.study ? static_cast<double>(compiled.study->plan().members) : 1.0;
   const double engines = options.engine == "both" && model.mujoco_refusal.empty() ? 2.0 : 1.0;
   return check_disk(model, members * engines * file_bytes(model, options.netcdf), options);
 }
@@ -204,8 +203,9 @@ int compile_and_simulate(const Options& options) {
   Sources sources;
   CompileResult result;
   if (const int code = compile_spec(options, sources, result); code != kExitDone) return code;
+  if (const int code = check_kept(result, options); code != kExitDone) return code;
   if (const int code = check_writable(first_files(options)); code != kExitDone) return code;
-  if (const int code = check_resources(result, options); code != kExitDone) return code;
+  if (const int code = check_written(result, options); code != kExitDone) return code;
   return simulate(std::move(result), options);
 }
 

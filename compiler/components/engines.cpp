@@ -11,16 +11,17 @@ const Table<BsmSpec>& bsm_table() {
       "bsm",
       "The analytic back-substitution engine.",
       {
-          optional("attitude", &BsmSpec::attitude,
-                   one_of<AttitudeChart>(
-                       {{"mrp", AttitudeChart::kMrp}, {"quaternion", AttitudeChart::kQuaternion}}),
-                   "Attitude coordinates that the engine integrates. `mrp`: three modified Rodrigues "
-                   "parameters, switched to their shadow set beyond half a turn. `quaternion`: "
-                   "four numbers, usually more accurate at the same step when the vehicle spins. "
-                   "The engine integrates the motion of B, so an attitude error also moves the "
-                   "system centre of mass, in proportion to its distance from B. Prefer "
-                   "`quaternion` for a spinning vehicle whose centre of mass is far from B: at "
-                   "10 rpm and 3 h the difference can be a metre against a millimetre."),
+          optional(
+              "attitude", &BsmSpec::attitude,
+              one_of<AttitudeChart>(
+                  {{"mrp", AttitudeChart::kMrp}, {"quaternion", AttitudeChart::kQuaternion}}),
+              "Attitude coordinates that the engine integrates. `mrp`: three modified Rodrigues "
+              "parameters, switched to their shadow set beyond half a turn. `quaternion`: "
+              "four numbers, usually more accurate at the same step when the vehicle spins. "
+              "The engine integrates the motion of B, so an attitude error also moves the "
+              "system centre of mass, in proportion to its distance from B. Prefer "
+              "`quaternion` for a spinning vehicle whose centre of mass is far from B: at "
+              "10 rpm and 3 h the difference can be a metre against a millimetre."),
           optional(
               "chains", &BsmSpec::chains,
               one_of<ChainPath>({{"planar", ChainPath::kPlanar}, {"general", ChainPath::kGeneral}}),

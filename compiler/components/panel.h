@@ -60,9 +60,9 @@ Matrix3d segment_inertia(const PanelSpec& panel);  // [kg m^2] about its centre,
 /// when no hinge has a spring.
 std::optional<double> segment_period(const PanelSpec& panel);
 
-/// No damper of the panel decays faster than this [1/s]: c/J of a single segment, J about its hinge.
-/// In a chain each segment is held by two dampers at both its ends and its neighbours move against
-/// it, which makes that sixteen times as much at most.
+/// No damper of the panel decays faster than this [1/s]: c/J of a single segment, J about its
+/// hinge. In a chain each segment is held by two dampers at both its ends and its neighbours move
+/// against it, which makes that sixteen times as much at most.
 double fastest_decay(const PanelSpec& panel);
 
 /// Mount, a right-angled hinge frame, list lengths, and an inertia that some body has.

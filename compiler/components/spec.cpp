@@ -88,13 +88,20 @@ double total_mass(const Spec& spec) {
 
 Oscillator oscillator(const SloshSpec& slosh, double acceleration) {
   if (const auto* pendulum = std::get_if<PendulumSpec>(&slosh)) {
-    return {pendulum->name, fmt::format("pendulum `{}`", pendulum->name),
-            period_of(*pendulum, acceleration), "no thruster burns at t = 0", pendulum->span(),
+    return {pendulum->name,
+            fmt::format("pendulum `{}`", pendulum->name),
+            period_of(*pendulum, acceleration),
+            "no thruster burns at t = 0",
+            pendulum->span(),
             pendulum->damping / pendulum->mass};
   }
   const auto& particle = std::get<ParticleSpec>(slosh);
-  return {particle.name, fmt::format("particle `{}`", particle.name), period_of(particle),
-          "it has no stiffness", particle.span_of("stiffness"), particle.damping / particle.mass};
+  return {particle.name,
+          fmt::format("particle `{}`", particle.name),
+          period_of(particle),
+          "it has no stiffness",
+          particle.span_of("stiffness"),
+          particle.damping / particle.mass};
 }
 
 }  // namespace

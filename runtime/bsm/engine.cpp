@@ -101,8 +101,7 @@ class BsmEngine final : public Engine {
     const Motion motion = motion_of(plan_.tree, x.q, x.q_dot, x.omega_BN_B);
     fill_books(sum_up(motion, assembly_, shares_, x.rotor_speed), x.dcm_NB, o);
     o.springs = spring_energy(plan_.tree, x.q);
-    o.potential = o.springs +
-                  forces_.potential(x.dcm_NB.transpose() * x.r_BN_N, motion.poses);
+    o.potential = o.springs + forces_.potential(x.dcm_NB.transpose() * x.r_BN_N, motion.poses);
     o.q_BN = x.q_BN;
     if (o.q_BN.w() < 0.0) o.q_BN.coeffs() = -o.q_BN.coeffs();
     return o;

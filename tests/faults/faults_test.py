@@ -98,9 +98,10 @@ class Disk(Faults):
         with contextlib.suppress(OSError), open(self.folder / "out/ballast", "wb", 0) as ballast:
             while ballast.write(b"x" * 4096):
                 pass
-        for program in ([SCCOMPILE], [SCSIM, "--quiet", *SHORT]):
+        for program, words in (([SCCOMPILE], "no space left"),
+                               ([SCSIM, "--quiet", *SHORT], "bytes are free")):
             run = self.run_in([*program, QUICKSTART, "-o", "out", "--set", "hub.mass=700"])
-            self.assert_fails(run, 3, "bytes are free")
+            self.assert_fails(run, 3, words)
             self.assertEqual(sorted([*old, "ballast"]), self.files())
         (self.folder / "out/ballast").unlink()
         self.assert_old_files(old)
