@@ -157,11 +157,12 @@ std::vector<Observation> MotionRecord::jumps() const {
   }
   std::ranges::stable_sort(ranked, [](const auto& a, const auto& b) { return a.first > b.first; });
   std::vector<Observation> found;
-  for (const auto& [share, jump] : ranked) {
+  for (const auto& one : ranked) {
     if (found.size() == kJumps) break;
+    const Observation& before = one.second->before;
     const bool is_there = std::ranges::any_of(
-        found, [jump](const Observation& seen) { return seen.time == jump->before.time; });
-    if (!is_there) found.push_back(jump->before);
+        found, [&before](const Observation& seen) { return seen.time == before.time; });
+    if (!is_there) found.push_back(before);
   }
   std::ranges::sort(found, {}, &Observation::time);
   return found;

@@ -80,7 +80,7 @@ T third_kind(const T& sn, const T& cn, const T& dn, const T& N) {
 /// In [-pi, pi].
 template <class Exact>
 Exact remainder_of_turn(const Exact& angle) {
-  const Exact turn = boost::math::constants::two_pi<Exact>();
+  const Exact& turn = boost::math::constants::two_pi<Exact>();
   return angle - turn * round(angle / turn);
 }
 

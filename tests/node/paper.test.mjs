@@ -71,7 +71,8 @@ let browser;
 let made;
 before(async () => {
   browser = await launch();
-  made = report("printed", "models/quickstart.yaml", "--no-timing", "--duration", "20 s");
+  made = report("printed", "models/quickstart.yaml", "--no-timing", "--duration", "20 s",
+    "--set", "engines.mujoco.compensate=false");
 });
 after(() => browser.close());
 
