@@ -80,8 +80,9 @@ std::string taken_apart(const std::string& name) {
     const std::string first = name.substr(0, length);
     const std::string rest = name.substr(length);
     if (!is_common(first)) continue;
-    if (is_common(rest)) return first + " " + rest;
-    if (const std::string parts = taken_apart(rest); !parts.empty()) return first + " " + parts;
+    if (is_common(rest)) return fmt::format("{} {}", first, rest);
+    if (const std::string parts = taken_apart(rest); !parts.empty())
+      return fmt::format("{} {}", first, parts);
   }
   return {};
 }

@@ -207,6 +207,17 @@ TEST_F(Sccompile, HelpFitsOneScreenAndShowsAnExample) {
   EXPECT_EQ(run_sccompile("--version").output, "sccompile " TWINCRAFT_VERSION "\n");
 }
 
+TEST_F(Sccompile, ForeseesAStepThatDestroysTheMotion) {
+  const Outcome run =
+      run_sccompile(std::string(kQuickstart) +
+                    " --check --set 'panels.*.stiffness=3e5' --set 'panels.*.damping=0' 2>&1");
+  EXPECT_EQ(run.exit_code, 0) << run.output;  // the two targets are one machine all the same
+  EXPECT_THAT(run.output, HasSubstr("warning[SC4003]: "));
+  EXPECT_THAT(run.output, HasSubstr("resolves it"));
+  EXPECT_THAT(run_sccompile(std::string(kQuickstart) + " --check 2>&1").output,
+              testing::Not(HasSubstr("SC4003")));
+}
+
 TEST_F(Sccompile, ProvesTheTwoTargetsEqual) {
   const Outcome run = run_sccompile(kQuickstart + out() + "--check 2>&1");
   EXPECT_EQ(run.exit_code, 0) << run.output;
