@@ -6,9 +6,10 @@
 #include <fmt/ranges.h>
 
 #include <array>
-#include <cstdint>
+#include <cstddef>
 #include <cstdlib>
 #include <cstring>
+#include <memory>
 #include <mutex>
 #include <utility>
 #include <vector>
@@ -37,8 +38,9 @@ constexpr std::size_t kAlignment = 64;
 void* allocate(std::size_t size) {
   void* taken = std::malloc(size + 2 * kAlignment);
   if (taken == nullptr) return nullptr;
-  const auto place = reinterpret_cast<std::uintptr_t>(taken) + 2 * kAlignment;
-  void** given = reinterpret_cast<void**>(place / kAlignment * kAlignment);
+  void* room = static_cast<std::byte*>(taken) + kAlignment;
+  std::size_t space = size + kAlignment;
+  void** given = static_cast<void**>(std::align(kAlignment, size, room, space));
   given[-1] = taken;
   return given;
 }
