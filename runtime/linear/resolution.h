@@ -21,7 +21,7 @@ namespace twincraft {
 enum class ResolutionRule {
   kStability,    // the step is beyond 0.9 of what the method can do with a mode
   kModalError,   // the method loses more than 5 % of a coordinate's motion
-  kAttitude,     // the steps' own errors turn the hub by more than a degree
+  kAttitude,     // the steps' own errors turn the hub by more than 0.8 deg
   kProbes,       // the steps' own errors add up to more than 5 % of a coordinate's motion
   kTranslation,  // the centre of mass is not where it would be
   kRotation,     // hub or hinge turns by more than half a turn in a step
