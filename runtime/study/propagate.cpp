@@ -11,6 +11,7 @@
 #include <limits>
 #include <utility>
 
+#include "compiler/ir/events.h"
 #include "compiler/ir/number.h"
 #include "runtime/integrate/landings.h"
 #include "runtime/reference/stored.h"
@@ -120,19 +121,14 @@ std::vector<std::string> state_names(const Model& model, const StateLayout& layo
   return names;
 }
 
+/// Inputs change there, or a stored state waits: a run has to meet what it is held against.
 std::vector<double> events_of(const Model& model) {
-  std::vector<const Schedule*> schedules;
-  for (const Link& link : model.assembly.links) schedules.push_back(&link.joint.effort);
-  for (const Rotor& rotor : model.assembly.rotors) schedules.push_back(&rotor.torque);
-  for (const Load& load : model.loads) {
-    for (const Schedule& force : load.force_L) schedules.push_back(&force);
-    for (const Schedule& torque : load.torque_L) schedules.push_back(&torque);
-  }
-  // A run has to meet the states it is held against.
-  Schedule stored;
-  for (const StoredState& state : model.stored.states) stored.entries.push_back({state.time, 0.0});
-  schedules.push_back(&stored);
-  return event_times(schedules, model.simulation.duration);
+  std::vector<double> times = input_events(model);
+  for (const StoredState& state : model.stored.states)
+    if (state.time > 0.0 && state.time < model.simulation.duration) times.push_back(state.time);
+  std::ranges::sort(times);
+  times.erase(std::unique(times.begin(), times.end()), times.end());
+  return times;
 }
 
 /// An engine at t = 0 and its way from landing to landing.
