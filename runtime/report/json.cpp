@@ -192,7 +192,7 @@ Json member_json(const ReportedMember& member) {
   return json;
 }
 
-/// NaN, where no logarithm exists, becomes null.
+/// NaN, where no exponent can be told, becomes null.
 Json trend_json(const Trend& trend, const char* x, const char* y, const char* exponents) {
   Json json = Json::object();
   if (!trend.metric.empty()) json["metric"] = trend.metric;
@@ -203,6 +203,7 @@ Json trend_json(const Trend& trend, const char* x, const char* y, const char* ex
   json[x] = trend.x;
   json[y] = trend.y;
   json["members"] = trend.members;
+  json["rounding"] = trend.is_rounding;
   json[exponents] = trend.exponents;
   return json;
 }

@@ -186,6 +186,12 @@ std::string trend_label(const Trend& trend, const Model& model, bool among_paths
   return label;
 }
 
+/// Between two neighbours.
+std::string exponent_cell(const Trend& trend, std::size_t i) {
+  if (trend.is_rounding[i] || trend.is_rounding[i + 1]) return "rounding";
+  return std::isnan(trend.exponents[i]) ? "-" : fmt::format("{:.2f}", trend.exponents[i]);
+}
+
 std::string trends_block(std::string_view title, const std::vector<Trend>& trends,
                          const Report& report) {
   if (trends.empty()) return {};
@@ -195,8 +201,8 @@ std::string trends_block(std::string_view title, const std::vector<Trend>& trend
   for (const Trend& trend : trends) {
     rows.push_back(
         {trend_label(trend, report.members.front().bundle.model, report.study->paths.size() > 1)});
-    for (double exponent : trend.exponents)
-      rows.back().push_back(std::isnan(exponent) ? "-" : fmt::format("{:.2f}", exponent));
+    for (std::size_t i = 0; i < trend.exponents.size(); ++i)
+      rows.back().push_back(exponent_cell(trend, i));
     rows.back().resize(1 + longest);
   }
   return fmt::format("\n{}\n{}", title, aligned(rows));

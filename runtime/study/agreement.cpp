@@ -18,6 +18,7 @@ namespace {
 constexpr double kDegrees = 180.0 / std::numbers::pi;  // [deg/rad]
 
 using Difference = decltype(MetricLaw::difference);
+using Size = decltype(MetricLaw::size);
 
 enum class Norm { kEuclidean, kLargest };
 
@@ -54,11 +55,33 @@ Difference joint_difference(std::vector<std::size_t> joints, Norm norm) {
   };
 }
 
+Size joint_size(std::vector<std::size_t> joints, Norm norm) {
+  return [joints = std::move(joints), norm](const Observation& a) {
+    std::vector<double> sizes;
+    for (std::size_t joint : joints) sizes.push_back(a.joint_position[joint]);
+    return norm_of(norm, sizes);
+  };
+}
+
 double wheel_difference(const Observation& a, const Observation& b) {
   std::vector<double> differences;
   for (std::size_t i = 0; i < a.wheel_rate.size(); ++i)
     differences.push_back(a.wheel_rate[i] - b.wheel_rate[i]);
   return norm_of(Norm::kEuclidean, differences);
+}
+
+double wheel_size(const Observation& a) { return norm_of(Norm::kEuclidean, a.wheel_rate); }
+
+/// Components of a quaternion are rounded as numbers near one are.
+double attitude_size(const Observation& /*a*/) { return 1.0; }
+
+Size length(Vector3d Observation::*point) {
+  return [point](const Observation& a) { return (a.*point).norm(); };
+}
+
+/// A position near the origin is the sum of terms as long as the vehicle: of the order of 1 m.
+Size position_size(Vector3d Observation::*point) {
+  return [point](const Observation& a) { return std::max(1.0, (a.*point).norm()); };
 }
 
 Difference distance(Vector3d Observation::*point) {
@@ -69,15 +92,20 @@ Difference distance(Vector3d Observation::*point) {
 void add_attitude_laws(const Agreement& tolerance, std::vector<MetricLaw>& laws) {
   laws.push_back(
       {"attitude_deg", kDegrees, tolerance.attitude,
-       [](const Observation& a, const Observation& b) { return principal_angle(a.q_BN, b.q_BN); }});
-  laws.push_back({"rate_rad_s", 1.0, tolerance.rate, distance(&Observation::omega_BN_B)});
+       [](const Observation& a, const Observation& b) { return principal_angle(a.q_BN, b.q_BN); },
+       attitude_size});
+  laws.push_back({"rate_rad_s", 1.0, tolerance.rate, distance(&Observation::omega_BN_B),
+                  length(&Observation::omega_BN_B)});
 }
 
 void add_translation_laws(const Agreement& tolerance, std::vector<MetricLaw>& laws) {
   // The position tolerance speaks of the system's centre of mass; B's own position has none.
-  laws.push_back({"position_m", 1.0, std::nullopt, distance(&Observation::r_BN_N)});
-  laws.push_back({"velocity_m_s", 1.0, tolerance.velocity, distance(&Observation::v_BN_N)});
-  laws.push_back({"com_position_m", 1.0, tolerance.position, distance(&Observation::r_CN_N)});
+  const auto r_BN_N = &Observation::r_BN_N, v_BN_N = &Observation::v_BN_N,
+             r_CN_N = &Observation::r_CN_N;
+  laws.push_back({"position_m", 1.0, std::nullopt, distance(r_BN_N), position_size(r_BN_N)});
+  laws.push_back({"velocity_m_s", 1.0, tolerance.velocity, distance(v_BN_N), length(v_BN_N)});
+  laws.push_back(
+      {"com_position_m", 1.0, tolerance.position, distance(r_CN_N), position_size(r_CN_N)});
 }
 
 void add_coordinate_laws(const Model& model, std::vector<MetricLaw>& laws) {
@@ -85,14 +113,14 @@ void add_coordinate_laws(const Model& model, std::vector<MetricLaw>& laws) {
   const Agreement& tolerance = model.agreement;
   const auto add = [&](const char* key, double unit, std::optional<double> limit,
                        const std::vector<Kind>& kinds, Norm norm) {
-    std::vector<std::size_t> joints = joints_of(model, kinds);
+    const std::vector<std::size_t> joints = joints_of(model, kinds);
     if (!joints.empty())
-      laws.push_back({key, unit, limit, joint_difference(std::move(joints), norm)});
+      laws.push_back({key, unit, limit, joint_difference(joints, norm), joint_size(joints, norm)});
   };
   add("joint_deg", kDegrees, tolerance.joint, {Kind::kPanel, Kind::kBodyAngle}, Norm::kEuclidean);
   add("joint_m", 1.0, tolerance.travel, {Kind::kBodyDisplacement}, Norm::kEuclidean);
   if (!model.assembly.rotors.empty())
-    laws.push_back({"wheel_rate_rad_s", 1.0, tolerance.wheel, wheel_difference});
+    laws.push_back({"wheel_rate_rad_s", 1.0, tolerance.wheel, wheel_difference, wheel_size});
   add("slosh_m", 1.0, tolerance.slosh, {Kind::kParticle}, Norm::kLargest);
   add("pendulum_deg", kDegrees, tolerance.joint, {Kind::kPendulum}, Norm::kLargest);
 }
@@ -124,7 +152,8 @@ std::vector<MetricLaw> metric_laws(const Model& model) {
   add_coordinate_laws(model, laws);
   laws.push_back(
       {"mass_kg", 1.0, model.agreement.mass,
-       [](const Observation& a, const Observation& b) { return std::abs(a.mass - b.mass); }});
+       [](const Observation& a, const Observation& b) { return std::abs(a.mass - b.mass); },
+       [](const Observation& a) { return a.mass; }});
   return laws;
 }
 
@@ -136,13 +165,14 @@ std::vector<MetricLaw> hub_laws(bool translation) {
 }
 
 AgreementMeter::AgreementMeter(std::vector<MetricLaw> laws)
-    : laws_(std::move(laws)), now_(laws_.size()), peaks_(laws_.size()) {}
+    : laws_(std::move(laws)), now_(laws_.size()), peaks_(laws_.size()), sizes_(laws_.size()) {}
 
 void AgreementMeter::take(const Observation& a, const Observation& b) {
   ++pairs_;
   for (std::size_t i = 0; i < laws_.size(); ++i) {
     now_[i] = laws_[i].unit * laws_[i].difference(a, b);
     peaks_[i].see(now_[i], a.time);
+    sizes_[i] = std::max({sizes_[i], laws_[i].size(a), laws_[i].size(b)});
   }
 }
 
@@ -151,7 +181,8 @@ Comparison AgreementMeter::result(bool same_times) const {
   comparison.same_times = same_times;
   if (pairs_ == 0) return comparison;
   for (std::size_t i = 0; i < laws_.size(); ++i) {
-    Metric metric{laws_[i].key, peaks_[i].maximum, peaks_[i].at, std::nullopt};
+    Metric metric{laws_[i].key, peaks_[i].maximum, peaks_[i].at, std::nullopt,
+                  laws_[i].unit * sizes_[i]};
     if (laws_[i].tolerance) metric.tolerance = laws_[i].unit * *laws_[i].tolerance;
     comparison.metrics.push_back(std::move(metric));
   }

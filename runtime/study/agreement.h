@@ -27,6 +27,7 @@ struct Metric {
   double maximum = 0.0;             // not finite when a sample was not
   double at = 0.0;                  // [s]
   std::optional<double> tolerance;  // nothing: reported, not judged
+  double size = 0.0;                // the largest that either run had of the quantity itself
 
   /// Nothing when there is no tolerance.
   std::optional<bool> pass() const;
@@ -43,6 +44,7 @@ struct MetricLaw {
   double unit = 1.0;                // key's units per SI unit
   std::optional<double> tolerance;  // SI
   std::function<double(const Observation&, const Observation&)> difference;  // SI
+  std::function<double(const Observation&)> size;                            // SI
 };
 
 /// Those that apply to a vehicle, in the order of the report.
@@ -68,6 +70,7 @@ class AgreementMeter {
   std::vector<MetricLaw> laws_;
   std::vector<double> now_;
   std::vector<Peak> peaks_;
+  std::vector<double> sizes_;
   std::size_t pairs_ = 0;
 };
 

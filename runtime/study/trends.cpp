@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <map>
 #include <optional>
 
@@ -55,13 +56,18 @@ double exponent(double x1, double x2, double y1, double y2) {
   return exists && std::isfinite(value) ? value : std::nan("");
 }
 
-std::optional<double> value_of(const StudyPoint& point, const Quantity& quantity) {
-  for (const auto& [known, value] : point.values)
-    if (*known == quantity) return value;
-  return std::nullopt;
+const Figure* find_figure(const StudyPoint& point, const Quantity& quantity) {
+  for (const Figure& figure : point.figures)
+    if (*figure.quantity == quantity) return &figure;
+  return nullptr;
 }
 
-/// Nothing when there is no exponent to tell.
+double exponent_before(const Trend& trend, std::size_t i) {
+  if (trend.is_rounding[i - 1] || trend.is_rounding[i]) return std::nan("");
+  return exponent(trend.x[i - 1], trend.x[i], trend.y[i - 1], trend.y[i]);
+}
+
+/// Nothing when there is neither an exponent to tell nor rounding to name.
 void add_trend(const Group& group, const Quantity& quantity, const Number& x,
                std::vector<Trend>& trends) {
   Trend trend;
@@ -71,18 +77,19 @@ void add_trend(const Group& group, const Quantity& quantity, const Number& x,
   trend.path = group.path;
   trend.others = group.others;
   for (const StudyPoint* point : group.points) {
-    const std::optional<double> at = x(*point), value = value_of(*point, quantity);
-    if (!at || !value) continue;
+    const std::optional<double> at = x(*point);
+    const Figure* figure = find_figure(*point, quantity);
+    if (!at || figure == nullptr) continue;
     trend.x.push_back(*at);
-    trend.y.push_back(*value);
+    trend.y.push_back(figure->value);
+    trend.is_rounding.push_back(figure->value > 0.0 && figure->value <= figure->rounding);
     trend.members.push_back(point->member);
   }
-  bool any = false;
-  for (std::size_t i = 1; i < trend.x.size(); ++i) {
-    trend.exponents.push_back(exponent(trend.x[i - 1], trend.x[i], trend.y[i - 1], trend.y[i]));
-    any = any || !std::isnan(trend.exponents.back());
-  }
-  if (any) trends.push_back(std::move(trend));
+  for (std::size_t i = 1; i < trend.x.size(); ++i)
+    trend.exponents.push_back(exponent_before(trend, i));
+  const bool any_rounding = std::ranges::find(trend.is_rounding, true) != trend.is_rounding.end();
+  if (trend.has_exponents() || (any_rounding && trend.x.size() > 1))
+    trends.push_back(std::move(trend));
 }
 
 bool is_agreement(const Quantity& quantity) {
@@ -91,24 +98,47 @@ bool is_agreement(const Quantity& quantity) {
 
 /// Every metric that the first member with a comparison has.
 void add_metrics(const Group& group, const Number& x, std::vector<Trend>& trends) {
-  const auto is_metric = [](const auto& value) { return is_agreement(*value.first); };
+  const auto is_metric = [](const Figure& figure) { return is_agreement(*figure.quantity); };
   const auto compared = std::ranges::find_if(group.points, [&](const StudyPoint* point) {
-    return std::ranges::any_of(point->values, is_metric);
+    return std::ranges::any_of(point->figures, is_metric);
   });
   if (compared == group.points.end()) return;
-  for (const auto& [quantity, unused] : (*compared)->values)
-    if (is_agreement(*quantity)) add_trend(group, *quantity, x, trends);
+  for (const Figure& figure : (*compared)->figures)
+    if (is_metric(figure)) add_trend(group, *figure.quantity, x, trends);
 }
 
 bool has_references(const Group& group) {
-  return std::ranges::any_of(group.points.front()->values,
-                             [](const auto& value) { return !value.first->reference.empty(); });
+  return std::ranges::any_of(group.points.front()->figures, [](const Figure& figure) {
+    return !figure.quantity->reference.empty();
+  });
 }
 
 /// Every deviation that the first member has.
 void add_references(const Group& group, const Number& x, std::vector<Trend>& trends) {
-  for (const auto& [quantity, unused] : group.points.front()->values)
-    if (!quantity->reference.empty()) add_trend(group, *quantity, x, trends);
+  for (const Figure& figure : group.points.front()->figures)
+    if (!figure.quantity->reference.empty()) add_trend(group, *figure.quantity, x, trends);
+}
+
+/// What rounding leaves in a quantity of this size: half a unit in the last place at every step,
+/// this way and that, so that it grows with the root of the steps; eight times that, as a bound.
+double rounding_of(double size, long steps) {
+  constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+  return 4.0 * kEpsilon * std::sqrt(static_cast<double>(steps)) * size;
+}
+
+/// Of a metric that the engines were compared in; 0 when they were not.
+double size_of(std::string_view key, const Member& member) {
+  if (member.comparison)
+    for (const Metric& metric : member.comparison->metrics)
+      if (metric.key == key) return metric.size;
+  return 0.0;
+}
+
+long steps_of(const Member& member) {
+  long steps = 0;
+  for (const EngineRun& run : member.engines)
+    steps = std::max(steps, run.trajectory.counts.accepted);
+  return steps;
 }
 
 std::vector<EngineEnd> ends_of(const Member& member) {
@@ -134,8 +164,12 @@ const Setting* find_setting(const std::vector<Setting>& settings, const std::str
   return found == settings.rend() ? nullptr : &*found;
 }
 
-void StudyPoints::add_value(Quantity quantity, double value, StudyPoint& point) {
-  point.values.emplace_back(&*quantities_.insert(std::move(quantity)).first, value);
+bool Trend::has_exponents() const {
+  return std::ranges::any_of(exponents, [](double value) { return !std::isnan(value); });
+}
+
+void StudyPoints::add_figure(Quantity quantity, double value, double rounding, StudyPoint& point) {
+  point.figures.push_back({&*quantities_.insert(std::move(quantity)).first, value, rounding});
 }
 
 void StudyPoints::add(const std::vector<Setting>& settings, const Model& model,
@@ -146,17 +180,19 @@ void StudyPoints::add(const std::vector<Setting>& settings, const Model& model,
   point.degrees_of_freedom = model.degrees_of_freedom();
   point.member = all_.size();
   point.in_fits = !member.failed() && !member.unresolved();
+  const long steps = steps_of(member);
   if (member.comparison)
     for (const Metric& metric : member.comparison->metrics)
-      add_value({"", "", metric.key}, metric.maximum, point);
+      add_figure({"", "", metric.key}, metric.maximum, rounding_of(metric.size, steps), point);
   for (const ReferenceRun& run : member.references)
     for (const Deviation& deviation : run.deviations)
-      add_value({run.name, run.engine, deviation.metric}, deviation.max, point);
+      add_figure({run.name, run.engine, deviation.metric}, deviation.max,
+                 rounding_of(size_of(deviation.metric, member), steps), point);
   if (member.timing && member.timing->complete())
     for (const EngineTiming& timing : member.timing->engines)
-      add_value({"", timing.name, ""}, 1.0e6 * timing.per_step(), point);
+      add_figure({"", timing.name, ""}, 1.0e6 * timing.per_step(), 0.0, point);
   if (keep_ends) point.ends = ends_of(member);
-  point.values.shrink_to_fit();
+  point.figures.shrink_to_fit();
   all_.push_back(std::move(point));
 }
 

@@ -7,7 +7,6 @@
 #include <optional>
 #include <set>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "compiler/ir/study.h"
@@ -21,6 +20,13 @@ struct Quantity {
   std::string engine;     // `bsm`; empty: both
   std::string metric;     // `attitude_deg`; empty: microseconds a step
   auto operator<=>(const Quantity&) const = default;
+};
+
+/// What a member has of a quantity.
+struct Figure {
+  const Quantity* quantity = nullptr;
+  double value = 0.0;
+  double rounding = 0.0;  // up to here the value is rounding; 0: nothing is known of that
 };
 
 /// Where an engine came to in a run to its end.
@@ -39,7 +45,7 @@ struct StudyPoint {
   int degrees_of_freedom = 0;
   std::size_t member = 0;  // its number in the study
   bool in_fits = true;     // it has neither failed nor is it unresolved
-  std::vector<std::pair<const Quantity*, double>> values;
+  std::vector<Figure> figures;
   std::vector<EngineEnd> ends;  // for work against precision
 };
 
@@ -57,7 +63,7 @@ class StudyPoints {
   StudyPoints& operator=(StudyPoints&&) = default;
 
  private:
-  void add_value(Quantity quantity, double value, StudyPoint& point);
+  void add_figure(Quantity quantity, double value, double rounding, StudyPoint& point);
 
   std::set<Quantity> quantities_;  // what points refer to
   std::vector<StudyPoint> all_;
@@ -72,7 +78,11 @@ struct Trend {
   std::string metric;           // `attitude_deg`
   std::vector<double> x, y;
   std::vector<std::size_t> members;  // of which each x and y is
-  std::vector<double> exponents;     // one less; NaN where a logarithm does not exist
+  std::vector<bool> is_rounding;     // of each x and y: y is no more than rounding
+  std::vector<double> exponents;  // one less; NaN where a logarithm does not exist, or of rounding
+
+  /// Some exponent can be told.
+  bool has_exponents() const;
 };
 
 /// Errors against references, or the difference of the engines where there is none, over the step

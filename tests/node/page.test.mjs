@@ -352,6 +352,9 @@ describe("studies", () => {
     const { page, json } = await study("flex_segments", "flex_segments", "--trials", "1", "--duration", "0.05 s");
     holdsTrends(await trendsOf(page, "scaling"), json, json.studies.scaling, ["degrees_of_freedom", "us_per_step", "exponents"]);
     holdsTrends(await trendsOf(page, "what-the-difference-follows"), json, json.studies.slopes, ["values", "maxima", "slopes"]);
+    const named = json.studies.slopes.flatMap((t) => t.slopes.filter((_, i) => t.rounding[i] || t.rounding[i + 1]));
+    assert.ok(named.length > 0 && named.every((slope) => slope === null));
+    assert.equal(await page.locator("#what-the-difference-follows td", { hasText: /^rounding$/ }).count(), named.length);
     await page.context().close();
   });
 

@@ -80,6 +80,27 @@ TEST(Trends, FindTheOrderOfAMethodInTheDifferenceOfTheEngines) {
   EXPECT_THAT(slopes_of(plan, study_points(members)), IsEmpty());
 }
 
+TEST(Trends, NameRoundingInsteadOfFittingIt) {
+  std::vector<ReportedMember> members;
+  const auto add = [&members](double step, double attitude_deg) {
+    members.push_back(member_with({{"simulation.step", "?", step}}, attitude_deg));
+    members.back().bundle.model.simulation.step = step;
+    members.back().result.comparison->metrics[0].size = 57.3;
+    members.back().result.engines.resize(1);
+    members.back().result.engines[0].trajectory.counts.accepted = 10'000;
+  };
+  // 4 eps sqrt(10 000) 57.3 deg = 5.1e-12 deg.
+  add(0.4, 1e-6);
+  add(0.2, 6e-12);
+  add(0.1, 5e-12);
+  add(0.05, 3e-16);
+  const std::vector<Trend> trends = convergence_of({4, {"simulation.step"}}, study_points(members));
+  ASSERT_THAT(trends, SizeIs(1));
+  EXPECT_THAT(trends[0].is_rounding, ElementsAre(false, false, true, true));
+  EXPECT_NEAR(trends[0].exponents[0], 17.3, 0.1);
+  EXPECT_THAT(trends[0].exponents, ElementsAre(testing::Gt(0), testing::IsNan(), testing::IsNan()));
+}
+
 TEST(Trends, PreferReferencesToTheDifferenceOfTheEngines) {
   std::vector<ReportedMember> members;
   for (const double step : {2.0, 1.0}) {

@@ -87,6 +87,9 @@ const trendKinds = {
 /** Whether the i-th dot of a trend is of a member that counts. @param {any} trend @param {number} i */
 const dotCounts = (trend, i) => leftOutFor(trend.members?.[i]) === undefined;
 
+/** Whether the i-th value of a trend is rounding. @param {any} trend @param {number} i */
+const isRounding = (trend, i) => Boolean(trend.rounding?.[i]);
+
 /** Median of the exponents between dots that count. @param {any} trend @param {TrendKind} kind */
 const fittedExponent = (trend, kind) => medianOf(trend[kind.exponents].map((/** @type {number | null} */ e, /** @type {number} */ i) =>
   (dotCounts(trend, i) && dotCounts(trend, i + 1) ? e : null)));
@@ -96,8 +99,12 @@ function dotMember(trend, i) {
   const index = trend.members?.[i];
   if (index === undefined) return "";
   const verdict = leftOutFor(index);
-  return `member ${index}` + (verdict ? `, ${verdictLooks[verdict].word}` : "");
+  return `member ${index}` + (verdict ? `, ${verdictLooks[verdict].word}` : "") + (isRounding(trend, i) ? ", rounding" : "");
 }
+
+/** Between dots i and i + 1. @param {any} trend @param {TrendKind} kind @param {number} i */
+const exponentText = (trend, kind, i) =>
+  isRounding(trend, i) || isRounding(trend, i + 1) ? "rounding" : trend[kind.exponents][i]?.toFixed(2) ?? "–";
 
 /** @param {any[]} trends @param {TrendKind} kind */
 function trendTable(trends, kind) {
@@ -107,7 +114,7 @@ function trendTable(trends, kind) {
     trend[kind.x].map((/** @type {number} */ x, /** @type {number} */ i) => ({ label: dotMember(trend, i) || String(i), kind: dotCounts(trend, i) ? "" : "unresolved", cells: [
       numberCell(x), numberCell(trend[kind.y][i]),
       i === 0 ? textCell("", "number")
-        : { value: trend[kind.exponents][i - 1], text: trend[kind.exponents][i - 1]?.toFixed(2) ?? "–", kind: "number" }] })))));
+        : { value: trend[kind.exponents][i - 1], text: exponentText(trend, kind, i - 1), kind: "number" }] })))));
 }
 
 /** @param {any[]} trends @param {TrendKind} kind */
@@ -116,7 +123,7 @@ function trendFigure(trends, kind) {
   return logFigure({
     title: kind.title(trends[0]), x: kind.axis(trends[0]), y: kind.value(trends[0]), orderWord: kind.word,
     clouds: trends.map((trend) => ({
-      name: trendName(trend), ...trendLook(trend), order: fittedExponent(trend, kind),
+      name: trendName(trend) + (trend.rounding?.every(Boolean) ? ", rounding" : ""), ...trendLook(trend), order: fittedExponent(trend, kind),
       dots: trend[kind.x].map((/** @type {number} */ x, /** @type {number} */ k) => ({
         x, y: trend[kind.y][k], hollow: trend.engine === "mujoco", out: !dotCounts(trend, k),
         said: [`${trendName(trend)}: ${written(trend[kind.y][k], 3)} ${kind === trendKinds.scaling ? "µs" : unit} at ${written(x, 3)}`, dotMember(trend, k)].filter(Boolean).join(", ") })),
