@@ -56,7 +56,7 @@ void conclude(std::vector<Finding> findings, std::string_view cure, Resolution& 
     if (!is_told && resolution.reasons.size() < kMostReasons)
       resolution.reasons.push_back(findings[i].text);
   }
-  if (!cure.empty()) resolution.reasons.front() += fmt::format(". {} resolves it", cure);
+  if (!cure.empty()) resolution.reasons.front() += fmt::format(". {}", cure);
 }
 
 }  // namespace twincraft

@@ -20,8 +20,8 @@ struct Finding {
 /// The largest of 1, 2 and 5 times a power of ten that is not above `step`.
 double nice_step(double step);
 
-/// Sorts the findings into `resolution`: rule, worst, reasons. The cure, if there is one, ends the
-/// gravest.
+/// Sorts the findings into `resolution`: rule, worst, reasons. The cure, a sentence if there is
+/// one, ends the gravest.
 void conclude(std::vector<Finding> findings, std::string_view cure, Resolution& resolution);
 
 /// `12 %`, `0.3 %`, `all`

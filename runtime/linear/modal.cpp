@@ -75,41 +75,40 @@ void ModalJudge::judge_stability(const ModalInstant& instant, const Mode& mode) 
   const double growth = std::log(std::abs(amplification(tableau_, step_ * mode.s)));
   const double true_growth = std::max(0.0, step_ * mode.s.real());
   const bool is_true_growth = mode.s.real() > 0.0;
-  const double limit =
-      stability_limit(tableau_, is_true_growth ? Complex(0.0, mode.rate()) : mode.s);
-  if (growth - true_growth > worst_growth_) {
-    worst_growth_ = growth - true_growth;
-    destroyer_ = Finding{ResolutionRule::kStability, kUnstable, mode.coordinate, std::nullopt,
-                         stability_words(instant, mode, limit)};
-  }
-  if (is_true_growth) return;
-  all_.push_back(mode.s);
   const double rate = mode.rate();
+  const double limit = stability_limit(tableau_, is_true_growth ? Complex(0.0, rate) : mode.s);
   // Growth of a tenth over the run, for the methods that always grow a little.
-  const bool grows_slowly = is_low_order_ && mode.damping_ratio() < kLittleDamping;
+  const bool grows_slowly =
+      is_low_order_ && !is_true_growth && mode.damping_ratio() < kLittleDamping;
   double stable = limit / rate;
   if (grows_slowly) {
     const double per_run = 1.0 / (rate * duration_);
     stable = (tableau_.order == 1 ? 0.2 * per_run : std::cbrt(0.8 * per_run)) / rate;
   }
-  stable_ = std::min(stable_, stable);
   const double steps = std::max(1.0, (duration_ - instant.time) / step_);
   const bool fails = grows_slowly ? growth * steps > kGrowth : step_ * rate > kMargin * limit;
+  if (fails && instant.time <= destroyed_ && growth - true_growth > worst_growth_) {
+    worst_growth_ = growth - true_growth;
+    destroyer_ = Finding{ResolutionRule::kStability, kUnstable, mode.coordinate, std::nullopt,
+                         stability_words(instant, mode, stable)};
+  }
+  if (is_true_growth) return;
+  all_.push_back(mode.s);
+  stable_ = std::min(stable_, stable);
   advised_ = std::min(advised_, grows_slowly ? stable : kAdvisedMargin * limit / rate);
   if (fails)
     findings_.push_back({ResolutionRule::kStability, kUnstable * (1.0 + step_ * rate),
-                         mode.coordinate, std::nullopt,
-                         stability_words(instant, mode, grows_slowly ? stable * rate : limit)});
+                         mode.coordinate, std::nullopt, stability_words(instant, mode, stable)});
 }
 
 std::string ModalJudge::stability_words(const ModalInstant& instant, const Mode& mode,
-                                        double limit) const {
+                                        double stable) const {
   std::string when;
   if (instant.time > 0.0) when = fmt::format(" at t = {} s", shortest(instant.time));
   if (instant.near_empty) when += ", its tank near empty";
   return fmt::format("{} {}{}: {} is stable below {:.3g} s, the step is {} s",
-                     subject(mode.coordinate), mode_words(mode), when, tableau_.name,
-                     limit / mode.rate(), shortest(step_));
+                     subject(mode.coordinate), mode_words(mode), when, tableau_.name, stable,
+                     shortest(step_));
 }
 
 void ModalJudge::judge_errors(const OwnMotion& motion, const ModalInstant& instant,
@@ -189,7 +188,5 @@ double ModalJudge::advised_step_of(const Tableau& tableau) const {
   }
   return advised;
 }
-
-std::optional<Finding> ModalJudge::destroyer() const { return destroyer_; }
 
 }  // namespace twincraft

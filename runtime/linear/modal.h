@@ -2,6 +2,7 @@
 // method does to each, and how much of it the motion has.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "runtime/linear/advice.h"
@@ -35,11 +36,14 @@ class ModalJudge {
   const std::optional<FastestMotion>& fastest() const { return fastest_; }
   double largest_stable_step() const { return stable_; }  // [s] infinite without modes
   double advised_step() const;                            // [s] infinite when all is well
+  double stable_advice() const { return advised_; }       // [s] the same, of stability alone
   /// The advised step of another method, for the modes that were seen.
   double advised_step_of(const Tableau& tableau) const;
 
-  /// The mode whose amplitude grows most in a step, when one grows: what a failed run died of.
-  std::optional<Finding> destroyer() const;
+  /// The unstable mode whose amplitude grows most in a step: what a failed run died of.
+  const std::optional<Finding>& destroyer() const { return destroyer_; }
+  /// Of the instants up to here [s].
+  void set_destroyed(double time) { destroyed_ = time; }
 
  private:
   struct Excited {
@@ -51,7 +55,7 @@ class ModalJudge {
                     const Amplitudes& amplitudes);
   void judge_error(const OwnMotion& motion, const ModalInstant& instant, int entry,
                    const Amplitudes& amplitudes, const std::vector<double>& errors);
-  std::string stability_words(const ModalInstant& instant, const Mode& mode, double limit) const;
+  std::string stability_words(const ModalInstant& instant, const Mode& mode, double stable) const;
   std::string error_words(const ModalInstant& instant, const Mode& mode, const std::string& name,
                           double error) const;
   void note_fastest(const Mode& mode);
@@ -64,7 +68,8 @@ class ModalJudge {
   double stable_, advised_;
   std::vector<Excited> excited_;  // what a step has to follow
   std::vector<std::complex<double>> all_;
-  double worst_growth_ = 0.0;
+  double destroyed_ = std::numeric_limits<double>::infinity();  // [s]
+  double worst_growth_ = 0.0;  // of a mode in a step, as a logarithm
   std::optional<Finding> destroyer_;
 };
 

@@ -117,7 +117,20 @@ void PrintTo(const Case& one, std::ostream* out) {
   *out << one.vehicle << " " << one.method << " at " << one.step << " s";
 }
 
-class Resolution : public testing::TestWithParam<Case> {
+/// Runs of one spec, into one folder.
+class Runs {
+ protected:
+  json run(const std::string& spec, std::vector<std::string> more = {}) {
+    const std::string file = folder.write("spec.yaml", spec);
+    more.insert(more.begin(), {file, "-o", folder.path() + "/out", "--no-timing"});
+    last = test::run_program(TWINCRAFT_SCSIM, more);
+    return json::parse(folder.read("out/report.json"));
+  }
+  TemporaryFolder folder;
+  ProgramResult last;
+};
+
+class Resolution : public Runs, public testing::TestWithParam<Case> {
  protected:
   static std::string text_of(const Case& one) {
     const Vehicle& subject = vehicle(one.vehicle);
@@ -128,14 +141,6 @@ class Resolution : public testing::TestWithParam<Case> {
         subject.name, subject.text, one.method, one.step, subject.duration,
         subject.name == "LongOrbit" ? ", mode: translation" : "");
   }
-  json run(const std::string& spec, std::vector<std::string> more = {}) {
-    const std::string file = folder.write("spec.yaml", spec);
-    more.insert(more.begin(), {file, "-o", folder.path() + "/out", "--no-timing"});
-    last = test::run_program(TWINCRAFT_SCSIM, more);
-    return json::parse(folder.read("out/report.json"));
-  }
-  TemporaryFolder folder;
-  ProgramResult last;
 };
 
 int exit_code(const std::string& verdict) {
@@ -174,6 +179,61 @@ TEST_P(Resolution, AdvisesAStepThatResolves) {
   EXPECT_LT(advised, std::stod(one.step));
   const json after = run(text_of(one), {"--set", fmt::format("simulation.step={}", advised)});
   EXPECT_EQ(after["members"][0]["resolution"]["resolved"], true) << last.out;
+}
+
+class Failure : public Runs, public testing::Test {
+ protected:
+  /// A tank that is drained but for a little, while its slosh keeps spring and damper.
+  static std::string draining(std::string_view step, std::string_view end, double damping) {
+    return fmt::format(
+        "format: spacecraft/1\nname: drain\nhub: {{mass: 100 kg, inertia: [10, 12, 15]}}\n"
+        "tanks: [{{name: t, shape: {{sphere: {{radius: 0.4}}}}, propellant: 20 kg}}]\n"
+        "thrusters: [{{name: th, tank: t, position: [0, 0, -1], direction: [0, 0, 1], "
+        "thrust: 2 kN, isp: 100 s, during: [[0 s, {} s]]}}]\n"
+        "slosh: [{{name: s, type: particle, tank: t, mass: 2 kg, position: [0.1, 0, 0], "
+        "axis: [1, 0, 0], stiffness: 2, damping: {}, displacement: 0.05}}]\n"
+        "initial: {{rate: [0.01, 0.02, 0.03]}}\n"
+        "simulation: {{integrator: rk4, step: {} s, duration: 20 s}}\n"
+        "agreement: {{attitude: 1.0e-6 deg}}\n",
+        end, damping, step);
+  }
+};
+
+// At 9.806 s 1.3 g of 20 kg are left, of the 2 kg that slosh 0.133 g: s^2 + 754 s + 15083 = 0, so
+// that the damper settles at 734 1/s, which rk4 follows below 2.785 / 734 s.
+TEST_F(Failure, NamesTheSloshOfADrainedTankAtAnyStep) {
+  for (const char* step : {"0.1", "0.02"}) {
+    const json resolution = run(draining(step, "9.806", 0.1))["members"][0]["resolution"];
+    EXPECT_EQ(last.exit_code, 4) << last.out;
+    EXPECT_EQ(resolution["worst"]["coordinate"], "s");
+    EXPECT_THAT(resolution["reasons"][0], HasSubstr("s is damped at 734 1/s at t = 9.806 s: rk4 is "
+                                                    "stable below 0.0038 s, the step is"));
+    EXPECT_EQ(resolution["advised_step_s"], 1.0e-3) << step;
+  }
+  const json report = run(draining("0.001", "9.806", 0.1));
+  EXPECT_EQ(report["verdict"], "agree") << last.out;
+}
+
+// At 9.8066499 s the tank is empty to its last digits.
+TEST_F(Failure, SaysWhereNoStepResolvesATankThatEmpties) {
+  const json resolution = run(draining("0.1", "9.8066499", 1.0e4))["members"][0]["resolution"];
+  EXPECT_EQ(last.exit_code, 4) << last.out;
+  EXPECT_THAT(resolution["reasons"][0], HasSubstr(". No step of use resolves a tank that empties"));
+  EXPECT_TRUE(resolution["advised_step_s"].is_null());
+}
+
+TEST_F(Failure, NamesThePoleOfAPendulum) {
+  const json resolution = run(R"(format: spacecraft/1
+name: pole
+hub: {mass: 500 kg, inertia: [200, 220, 250]}
+slosh: [{name: bob, type: pendulum, mass: 20 kg, length: 0.3 m, rest: [0, 0, -1], reference: [0, 1, 0],
+         angles: [0.2, 0.6], rates: [0.1, 1.0]}]
+simulation: {integrator: rk4, step: 0.1 s, duration: 20 s}
+)")["members"][0]["resolution"];
+  EXPECT_EQ(last.exit_code, 4) << last.out;
+  EXPECT_EQ(resolution["worst"]["coordinate"], "bob.theta");
+  EXPECT_THAT(resolution["reasons"][0],
+              HasSubstr("near its pole, where phi means nothing: choose another `reference`"));
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -113,7 +113,7 @@ TEST(Advice, PutsTheGravestFirstAndEndsItWithTheCure) {
   Resolution resolution;
   conclude({{ResolutionRule::kProbes, 2.0, "a", 0.1, "a little"},
             {ResolutionRule::kModalError, 9.0, "b", 0.45, "much"}},
-           "--step '5 ms'", resolution);
+           "--step '5 ms' resolves it", resolution);
   EXPECT_FALSE(resolution.resolved);
   EXPECT_EQ(resolution.rule, ResolutionRule::kModalError);
   EXPECT_EQ(resolution.worst_coordinate, "b");
