@@ -16,6 +16,7 @@
 #include "compiler/output.h"
 #include "compiler/pipeline.h"
 #include "runtime/linear/resolution.h"
+#include "runtime/report/progress.h"
 #include "runtime/study/proof.h"
 
 namespace twincraft {
@@ -172,7 +173,12 @@ void foresee(const CompileResult& result, Diagnostics& diagnostics) {
 }
 
 int check(const Bundle& bundle, const Options& options) {
-  const ProofReport proof = prove(bundle);
+  ProgressBar bar(stderr);
+  const bool is_watched = ::isatty(STDERR_FILENO) != 0;
+  const ProofReport proof = prove(bundle, [&bar, is_watched](double done) {
+    if (is_watched) bar.show("proof", done);
+  });
+  bar.clear();
   if (options.diagnostics == "text") {
     if (const int code = print(to_text(proof)); code != kExitDone) return code;
   } else {

@@ -172,9 +172,11 @@ void compare_mass_matrices(const Answer& a, const Answer& b, std::size_t state, 
 /// rounding may do to them is found again for the states that need it.
 class StateComparison {
  public:
-  StateComparison(Engine& a, Engine& b, std::vector<RandomState> states)
+  StateComparison(Engine& a, Engine& b, std::vector<RandomState> states,
+                  const ProofProgress& progress)
       : a_(a), b_(b), states_(std::move(states)), allowances_(states_.size()) {
     for (std::size_t i = 0; i < states_.size(); ++i) {
+      if (progress) progress(static_cast<double>(i) / static_cast<double>(states_.size()));
       const Answer of_a = ask(a_, states_[i]), of_b = ask(b_, states_[i]);
       compare_mass_matrices(of_a, of_b, i, mass_matrix_);
       accelerations_.push_back({of_a.acceleration, of_b.acceleration});
@@ -241,7 +243,7 @@ bool ProofReport::pass() const {
          std::all_of(lines.begin(), lines.end(), [](const ProofLine& line) { return line.pass(); });
 }
 
-ProofReport prove(const Model& model, Engine& a, Engine& b) {
+ProofReport prove(const Model& model, Engine& a, Engine& b, const ProofProgress& progress) {
   ProofReport report;
   report.remarks = deliberate_mismatches(model);
   if (!same_coordinates(model, a, b, report)) return report;
@@ -257,21 +259,21 @@ ProofReport prove(const Model& model, Engine& a, Engine& b) {
   const RandomState start = undisturbed(model);
   const Answer start_a = ask(a, start);
   compare_mass_properties(start_a, ask(b, start), report);
-  StateComparison comparison(a, b, std::move(states));
+  StateComparison comparison(a, b, std::move(states), progress);
   report.lines.push_back(comparison.mass_matrix());
   for (const AccelerationBlock& block : blocks_of(model, start_a.mass_matrix))
     report.lines.push_back(comparison.compare(block));
   return report;
 }
 
-ProofReport prove(const Bundle& bundle) {
+ProofReport prove(const Bundle& bundle, const ProofProgress& progress) {
   ProofReport report;
   report.refusal = bundle.model.mujoco_refusal;
   if (!report.refusal.empty()) return report;
   try {
     const std::unique_ptr<Engine> bsm = make_bsm_engine(bundle.model);
     const std::unique_ptr<Engine> mujoco = make_mujoco_engine(bundle.model, bundle.mjcf);
-    return prove(bundle.model, *bsm, *mujoco);
+    return prove(bundle.model, *bsm, *mujoco, progress);
   } catch (const NumericalFailure& failure) {
     report.refusal = failure.what();
     return report;

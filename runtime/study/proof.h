@@ -4,6 +4,7 @@
 // Tested by tests/runtime/proof_test.cpp.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -37,11 +38,14 @@ struct ProofReport {
   bool pass() const;
 };
 
+/// Called at every state: how much is done, 0 to 1.
+using ProofProgress = std::function<void(double fraction)>;
+
 /// Compare the halves of `bundle` at kProofStates seeded states; the same everywhere.
-ProofReport prove(const Bundle& bundle);
+ProofReport prove(const Bundle& bundle, const ProofProgress& progress = {});
 
 /// The same for two given engines of one model.
-ProofReport prove(const Model& model, Engine& a, Engine& b);
+ProofReport prove(const Model& model, Engine& a, Engine& b, const ProofProgress& progress = {});
 
 /// The report as a table for people.
 std::string to_text(const ProofReport& report);

@@ -206,6 +206,15 @@ TEST(Proof, GivesTheSameNumbersEveryTime) {
   EXPECT_EQ(to_text(prove(bundle)), to_text(prove(bundle)));
 }
 
+TEST(Proof, SaysHowFarItIs) {
+  std::vector<double> shown;
+  prove(bundle_of(test::wheels_and_panels()), [&shown](double done) { shown.push_back(done); });
+  ASSERT_EQ(shown.size(), static_cast<std::size_t>(kProofStates));
+  EXPECT_EQ(shown.front(), 0.0);
+  EXPECT_TRUE(std::ranges::is_sorted(shown));
+  EXPECT_LT(shown.back(), 1.0);
+}
+
 TEST(Proof, FindsAPartPerBillionOfMass) {
   const ProofReport report = against(scheduled(test::wheels_and_panels()), [](Model& model) {
     model.assembly.links[0].elements[0].mass *= 1.0 + 1.0e-9;
