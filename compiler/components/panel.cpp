@@ -208,7 +208,7 @@ const Table<PanelSpec>& panel_table() {
                    "Of the whole panel from root hinge to tip. The centre of mass of each segment "
                    "is at its middle."),
           required("inertia", &PanelSpec::inertia,
-                   either(&Node::is_map, object(shape_table()), inertia()),
+                   either(is_section, object(shape_table()), inertia()),
                    "Of one segment about its own centre of mass, in the axes (outboard, hinge, "
                    "normal = outboard x hinge); or its shape."),
           optional("stiffness", &PanelSpec::stiffness, each("N m/rad", Range::kNotNegative),

@@ -52,7 +52,7 @@ const Table<AbsoluteRelative>& parts_table() {
 }
 
 Kind<ToleranceSpec> tolerance() {
-  return either(&Node::is_map, object(parts_table()), number(Range::kPositive));
+  return either(is_section, object(parts_table()), number(Range::kPositive));
 }
 
 struct Block {
@@ -239,11 +239,11 @@ const Table<SimulationSpec>& simulation_table() {
                    "`rkf45` and `rkf78` choose their steps by `tolerance`, the others are fixed."),
           required(
               "step", &SimulationSpec::step,
-              either(&Node::is_map, object(rule_table()), quantity("s", Range::kPositive)),
+              either(is_section, object(rule_table()), quantity("s", Range::kPositive)),
               "The fixed step, or the interval at which an adaptive method is sure to land; or "
               "a rule for it."),
           optional("tolerance", &SimulationSpec::tolerance,
-                   either(&Node::is_map, object(blocks_table()), number(Range::kPositive)),
+                   either(is_section, object(blocks_table()), number(Range::kPositive)),
                    "Of adaptive methods: one number, absolute and relative alike, or per block."),
           required("duration", &SimulationSpec::duration, quantity("s", Range::kPositive),
                    "From t = 0."),

@@ -122,6 +122,10 @@ std::optional<bool> read_boolean(const Node& node, ReadContext& context) {
 
 }  // namespace
 
+bool is_section(const Node& node) {
+  return node.is_map() && node.find("value") == nullptr && node.find("unit") == nullptr;
+}
+
 std::string range_text(Range range) {
   switch (range) {
     case Range::kPositive:

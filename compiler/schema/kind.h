@@ -80,6 +80,9 @@ Kind<std::vector<V>> one_or_list(Kind<V> item);
 template <class V>
 Kind<std::optional<V>> maybe(Kind<V> kind);
 
+/// A map of keys, and not numbers with one unit, `{value: [1, 2], unit: mm}`: for either().
+bool is_section(const Node& node);
+
 /// Two spellings told apart by shape: `first` when `suits(node)`, else `second`. For example
 /// `either(&Node::is_scalar, one_of<Com>({{"com", Com{}}}), vector3("m"))`.
 template <class A, class B>

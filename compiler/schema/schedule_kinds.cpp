@@ -104,7 +104,7 @@ Json write_schedule(const Schedule& schedule) {
 
 std::optional<std::array<Schedule, 3>> read_schedule3(const Node& node, const std::string& si,
                                                       ReadContext& context) {
-  if (node.is_map() && node.find("value") == nullptr && node.find("unit") == nullptr) {
+  if (is_section(node)) {
     report_wrong_type(node, context, "three components, each a quantity or a schedule",
                       fmt::format("write for example `[0, [[0 s, 1 {}], [40 s, 0]], 0]`", si));
     return std::nullopt;

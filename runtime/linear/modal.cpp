@@ -104,7 +104,7 @@ void ModalJudge::judge_stability(const ModalInstant& instant, const Mode& mode) 
 std::string ModalJudge::stability_words(const ModalInstant& instant, const Mode& mode,
                                         double stable) const {
   std::string when;
-  if (instant.time > 0.0) when = fmt::format(" at t = {} s", shortest(instant.time));
+  if (instant.time > 0.0) when = fmt::format(" at t = {:.9g} s", instant.time);
   if (instant.near_empty) when += ", its tank near empty";
   return fmt::format("{} {}{}: {} is stable below {:.3g} s, the step is {} s",
                      subject(mode.coordinate), mode_words(mode), when, tableau_.name, stable,
@@ -156,7 +156,7 @@ std::string ModalJudge::error_words(const ModalInstant& instant, const Mode& mod
                                     const std::string& name, double error) const {
   const double period = 2.0 * std::numbers::pi / std::abs(mode.s.imag());
   std::string text = fmt::format("{} {}", subject(mode.coordinate), mode_words(mode));
-  if (instant.time > 0.0) text += fmt::format(" from t = {} s", shortest(instant.time));
+  if (instant.time > 0.0) text += fmt::format(" from t = {:.9g} s", instant.time);
   text += fmt::format(": {} at {} s", tableau_.name, shortest(step_));
   if (mode.is_pair())
     text += fmt::format(" gives a period {:.3g} steps and loses {} of its motion", period / step_,

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "runtime/report/attribution_json.h"
+#include "runtime/report/printed_time.h"
 #include "runtime/report/resolution_json.h"
 #include "runtime/report/words.h"
 
@@ -100,7 +101,7 @@ Json engine_json(const Model& model, const EngineRun& run) {
   engine["steps"] = trajectory.counts.accepted;
   engine["rejected_steps"] = trajectory.counts.rejected;
   engine["evaluations"] = trajectory.counts.evaluations;
-  engine["t_end_s"] = trajectory.t_end;
+  engine["t_end_s"] = PrintedTime(model.simulation.step)(trajectory.t_end);
   engine["final"] = final_json(model, trajectory.samples.back());
   engine["conservation"] = {{"energy_relative", run.conservation.energy},
                             {"momentum_relative", run.conservation.momentum},
@@ -172,6 +173,14 @@ Json timing_json(const Timing& timing) {
   return json;
 }
 
+/// Every `at_s` as the CSV files write it.
+void print_times(const PrintedTime& printed, Json& json) {
+  for (auto& [key, value] : json.items()) {
+    if (value.is_structured()) print_times(printed, value);
+    if (key == "at_s" && value.is_number()) value = printed(value.get<double>());
+  }
+}
+
 Json member_json(const ReportedMember& member) {
   const Member& result = member.result;
   Json json{{"verdict", verdict_name(result.verdict())},
@@ -189,6 +198,9 @@ Json member_json(const ReportedMember& member) {
   json["references"] = references_json(result.references);
   if (result.resolution) json["resolution"] = resolution_json(result);
   if (result.timing) json["timing"] = timing_json(*result.timing);
+  const PrintedTime printed(member.bundle.model.simulation.step);
+  for (const char* part : {"agreement", "against", "references"})
+    if (json.contains(part)) print_times(printed, json[part]);
   return json;
 }
 

@@ -64,6 +64,13 @@ TEST(Panel, TurnsByTheRightHandAboutItsAxis) {
   EXPECT_TRUE(link.r_LB_B.isApprox(Vector3d(0.8, 0.0, 0.0)));
 }
 
+TEST(Panel, ReadsAnInertiaOfNumbersAndAUnit) {
+  const Trial trial(wing("    inertia: {value: [300, 200, 120], unit: kg dm2}\n"));
+  ASSERT_TRUE(trial.model);
+  const Matrix3d I = trial.model->assembly.links.at(1).elements.at(0).I_PntE_L;
+  EXPECT_TRUE(I.isApprox(Vector3d(3.0, 2.0, 1.2).asDiagonal().toDenseMatrix(), 1e-15)) << I;
+}
+
 TEST(Panel, HasALinkFrameOfOutboardHingeAndNormal) {
   const Trial trial(wing("    inertia: [30, 20, 12]\n    segments: 2\n"));
   ASSERT_TRUE(trial.model);
