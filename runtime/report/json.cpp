@@ -250,6 +250,7 @@ Json work_precision_json(const std::vector<EngineWork>& engines, const StudyPoin
     for (const WorkPoint& point : work.points)
       engine["configurations"].push_back(work_point_json(point, members));
   }
+  if (!engines.empty()) json["remarks"] = idle_tolerances(engines.front(), members);
   if (engines.size() != 2) return json;
   const Faster faster = compare_cost(engines[0], engines[1]);
   if (faster.of > 0) json["bsm_faster"] = {{"in", faster.first}, {"of", faster.of}};

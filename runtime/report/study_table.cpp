@@ -237,7 +237,9 @@ std::string work_precision_block(const Report& report) {
   for (const EngineWork& work : engines)
     for (const char* what : {"error", "cost"})
       rows[0].push_back(fmt::format("{} {}", engine_label(work.engine), what));
-  for (std::size_t i = 0; i < engines.front().points.size(); ++i) {
+  const std::size_t configurations = engines.front().points.size();
+  const std::size_t shown = std::min(configurations, kShownMembers);
+  for (std::size_t i = 0; i < shown; ++i) {
     rows.push_back({configuration_words(all->points().all()[i].settings)});
     for (const EngineWork& work : engines) {
       rows.back().push_back(error_cell(work.points[i]));
@@ -249,7 +251,12 @@ std::string work_precision_block(const Report& report) {
     rows.back().push_back(quantity(work.floor.attitude, "deg"));
     rows.back().push_back("");
   }
-  std::string text = aligned(rows) + "\n  * on the engine's own frontier of cost and error\n";
+  std::string text = aligned(rows);
+  if (shown < configurations)
+    text += fmt::format("  ... and {} more, in report.json\n", configurations - shown);
+  text += "\n  * on the engine's own frontier of cost and error\n";
+  for (const std::string& sentence : idle_tolerances(engines.front(), all->points()))
+    text += fmt::format("  {}\n", sentence);
   if (engines.size() != 2) return text;
   const Faster faster = compare_cost(engines[0], engines[1]);
   if (faster.of > 0)

@@ -1,9 +1,12 @@
 // See work_precision.h. Tested by tests/runtime/sweep_test.cpp.
 #include "runtime/study/work_precision.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <tuple>
 
@@ -56,6 +59,16 @@ void mark_frontier(std::vector<WorkPoint>& points) {
   }
 }
 
+std::string integrator_of(const StudyPoint& member) {
+  const Setting* setting = find_setting(member.settings, "simulation.integrator");
+  return setting == nullptr ? std::string() : setting->text;
+}
+
+bool varies_tolerance(const StudyPoint& member) {
+  return !member.settings.empty() &&
+         member.settings.back().path.starts_with("simulation.tolerance");
+}
+
 }  // namespace
 
 std::vector<EngineWork> work_precision_of(const StudyPoints& points) {
@@ -73,6 +86,29 @@ std::vector<EngineWork> work_precision_of(const StudyPoints& points) {
     engines.push_back(std::move(work));
   }
   return engines;
+}
+
+std::vector<std::string> idle_tolerances(const EngineWork& work, const StudyPoints& points) {
+  std::map<std::string, std::map<long, int>> runs;  // by integrator: how many took so many
+  for (const WorkPoint& point : work.points) {
+    const StudyPoint& member = points.all()[point.member];
+    if (!point.diverged && varies_tolerance(member))
+      ++runs[integrator_of(member)][point.evaluations];
+  }
+  std::vector<std::string> sentences;
+  for (const auto& [integrator, counts] : runs) {
+    int all = 0, alike = 0;
+    for (const auto& [evaluations, count] : counts) {
+      all += count;
+      alike = std::max(alike, count);
+    }
+    if (alike > 1)
+      sentences.push_back(
+          fmt::format("{} of {} tolerances of {} take the same steps: they land at every `step`, "
+                      "which is too short to tell them apart",
+                      alike, all, integrator));
+  }
+  return sentences;
 }
 
 Faster compare_cost(const EngineWork& first, const EngineWork& second) {

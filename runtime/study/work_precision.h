@@ -36,6 +36,10 @@ struct EngineWork {
 /// @pre the last two points are the reference and the check
 std::vector<EngineWork> work_precision_of(const StudyPoints& points);
 
+/// Sentences about adaptive methods whose tolerance changes nothing, since the interval at which
+/// they land is shorter than the step it asks for.
+std::vector<std::string> idle_tolerances(const EngineWork& work, const StudyPoints& points);
+
 /// In how many configurations that both completed and that were timed the first engine was faster.
 struct Faster {
   int first = 0;

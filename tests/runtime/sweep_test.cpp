@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <future>
@@ -213,6 +214,21 @@ TEST(WorkPrecision, KeepsOnTheFrontierWhatNothingCheaperBeats) {
   for (const WorkPoint& point : work.points) frontier.push_back(point.on_frontier);
   EXPECT_THAT(frontier, ElementsAre(true, true, false, false));
   EXPECT_TRUE(work.points[3].diverged);
+}
+
+TEST(WorkPrecision, SaysWhichTolerancesChangeNothing) {
+  std::vector<ReportedMember> members = configurations();
+  const std::array<const char*, 4> methods{"rkf45", "rkf45", "rkf45", "rkf78"};
+  const std::array<long, 4> evaluations{600, 600, 900, 600};
+  for (std::size_t i = 0; i < methods.size(); ++i) {
+    members[i].settings = {{"simulation.integrator", methods[i], {}},
+                           {"simulation.tolerance", "?", 1.0}};
+    members[i].result.engines[0].status = EngineRun::Status::kOk;
+    members[i].result.engines[0].trajectory.counts.evaluations = evaluations[i];
+  }
+  const StudyPoints points = study_points(members);
+  EXPECT_THAT(idle_tolerances(work_precision_of(points).at(0), points),
+              ElementsAre(HasSubstr("2 of 3 tolerances of rkf45 take the same steps")));
 }
 
 TEST(WorkPrecision, SaysNothingWithoutAReference) {

@@ -56,7 +56,8 @@ function workSection() {
   const timed = engines.some((e) => work[e.key]?.configurations.some((/** @type {any} */ c) => c.median_s !== undefined));
   const cost = timed ? "median_s" : "evaluations";
   const faster = work.bsm_faster ? html("p", {}, `BSM is faster in ${work.bsm_faster.in} of ${work.bsm_faster.of} configurations.`) : null;
-  return section("Work and precision", faster,
+  const remarks = (work.remarks ?? []).map((/** @type {string} */ remark) => html("p", {}, `${remark}.`));
+  return section("Work and precision", faster, ...remarks,
     note("The end of every configuration against a tight run of the same engine. A circle is BSM, a square MuJoCo; the colour is the integrator's. Full marks are on the engine's frontier: nothing cheaper has a smaller attitude error. Below the floor, where two tight runs differ, an error means nothing."),
     html("div", { class: "plots" }, workFigure("attitude_deg", cost), workFigure("position_m", cost)));
 }
