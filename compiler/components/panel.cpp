@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "compiler/components/physical.h"
+#include "compiler/ir/angle.h"
 #include "compiler/ir/number.h"
 
 namespace twincraft {
@@ -89,7 +90,7 @@ double of_root(const std::vector<double>& values, std::size_t i) {
 void check_hinge(const HingeSpec& hinge, const std::string& who, Diagnostics& diagnostics) {
   const double cosine = hinge.axis.dot(hinge.outboard);
   if (std::abs(cosine) <= kPerpendicularTolerance) return;
-  const double degrees = std::asin(std::min(std::abs(cosine), 1.0)) * 180.0 / std::numbers::pi;
+  const double degrees = std::asin(std::min(std::abs(cosine), 1.0)) * kDegrees;
   diagnostics
       .error(Code::kNotPerpendicular, hinge.span_of("outboard"),
              fmt::format("`outboard` and `axis` of {} are off perpendicular by {:.3g} degrees", who,

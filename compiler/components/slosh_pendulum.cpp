@@ -7,10 +7,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "compiler/ir/angle.h"
+
 namespace twincraft {
 namespace {
-
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 // How far from a right angle rest and reference may be, as the sine.
 constexpr double kPerpendicularTolerance = 1.0e-9;

@@ -54,9 +54,6 @@ class ForceModel {
   /// the vehicle fall as a whole.
   bool is_idle() const { return !gravity_acts_ && acting_loads_.empty(); }
 
-  /// Not even that: apply() is not worth calling.
-  bool is_silent() const { return law_ == GravityLaw::kNone && is_idle(); }
-
   /// Set the wrench of every link, unless idle.
   void apply(const Vector3d& r_BN_W, std::span<const LinkPose> links,
              std::span<Wrench> wrenches) const;

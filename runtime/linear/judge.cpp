@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "compiler/ir/number.h"
 #include "runtime/linear/amplification.h"
+#include "runtime/measure.h"
 
 namespace twincraft {
 namespace {
@@ -17,8 +17,7 @@ constexpr double kStabilitySets = 0.8;  // of the stability limit: an adaptive m
 constexpr double kMostTurn = 0.2;       // [rad] in a step, that no failure is laid to
 constexpr double kAdvisedTurn = 0.05;   // [rad] in a step
 constexpr double kNearPole = 0.35;      // cosine of a pendulum's theta
-constexpr double kDegrees = 180.0 / std::numbers::pi;
-constexpr double kMostSteps = 1.0e9;  // of a run: a step that takes more is none
+constexpr double kMostSteps = 1.0e9;    // of a run: a step that takes more is none
 
 }  // namespace
 

@@ -2,16 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "compiler/ir/truth.h"
+#include "runtime/measure.h"
 #include "runtime/reference/reference.h"
 
 namespace twincraft {
 namespace {
-
-constexpr double kDegrees = 180.0 / std::numbers::pi;  // [deg/rad]
 
 constexpr std::size_t kJumps = 8;
 
@@ -84,7 +82,7 @@ MotionRecord::MotionRecord(const Model& model, std::vector<double> events)
 }
 
 std::size_t MotionRecord::stretch_of(double time) const {
-  const double late = time + 1.0e-9 * (1.0 + time);
+  const double late = time + time_tolerance(time);
   return static_cast<std::size_t>(std::upper_bound(events_.begin(), events_.end(), late) -
                                   events_.begin());
 }
@@ -107,7 +105,7 @@ void MotionRecord::see(const Observation& sample, const Books& books) {
   twincraft::see(center_, sample.r_CN_N);
   largest_rate_ = std::max(largest_rate_, sample.omega_BN_B.norm());
   distance_ = std::max(distance_, sample.r_CN_N.norm());
-  excursion_ = std::max(excursion_, angle_deg(first_->q_BN, sample.q_BN) / kDegrees);
+  excursion_ = std::max(excursion_, principal_angle(first_->q_BN, sample.q_BN));
   energy_.see(sample, books);
   if (model_.gravity.mu != 0.0) see_orbit(sample, books);
   if (last_) see_jumps(sample);

@@ -3,16 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "runtime/bsm/engine.h"
 #include "runtime/linear/linearise.h"
+#include "runtime/measure.h"
 #include "runtime/reference/reference.h"
 
 namespace twincraft {
 namespace {
-
-constexpr double kDegrees = 180.0 / std::numbers::pi;  // [deg/rad]
 
 Model in_quaternions(const Model& model) {
   Model same = model;
@@ -65,7 +63,7 @@ LocalError Prober::probe(const Observation& seen, double h) {
   const Observation whole = stepped(seen, h, 1);
   const Observation halves = stepped(seen, 0.5 * h, 2);
   LocalError error;
-  error.attitude = factor_ * angle_deg(whole.q_BN, halves.q_BN) / kDegrees;
+  error.attitude = factor_ * principal_angle(whole.q_BN, halves.q_BN);
   const double apart = (whole.r_CN_N - halves.r_CN_N).norm();
   error.center = apart <= kRounding * whole.r_CN_N.norm() ? 0.0 : factor_ * apart;
   for (std::size_t joint = 0; joint < whole.joint_position.size(); ++joint)

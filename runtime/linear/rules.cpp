@@ -10,11 +10,10 @@
 
 #include "compiler/ir/number.h"
 #include "runtime/linear/judge.h"
+#include "runtime/measure.h"
 
 namespace twincraft {
 namespace {
-
-constexpr double kDegrees = 180.0 / std::numbers::pi;  // [deg/rad]
 
 constexpr double kErrorLimit = 0.05;       // of a coordinate's motion
 constexpr double kAttitudeLimit = 0.8;     // [deg]
@@ -34,7 +33,7 @@ constexpr std::size_t kFewStretches = 2;
 
 const Observation* shown_at(std::span<const Observation> instants, double time) {
   const auto found =
-      std::ranges::lower_bound(instants, time - 1.0e-9 * (1.0 + time), {}, &Observation::time);
+      std::ranges::lower_bound(instants, time - time_tolerance(time), {}, &Observation::time);
   return found == instants.end() ? nullptr : &*found;
 }
 

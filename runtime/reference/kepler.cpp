@@ -84,8 +84,8 @@ std::vector<Deviation> kepler_deviations(const Model& model, std::span<const Obs
   Deviation velocity{.metric = "velocity_m_s"};
   for (const Observation& sample : samples) {
     const KeplerOrbit::State truth = orbit.at(sample.time - samples.front().time);
-    widen(position, (sample.r_CN_N - truth.r).norm(), sample.time);
-    widen(velocity, (sample.v_CN_N - truth.v).norm(), sample.time);
+    position.see((sample.r_CN_N - truth.r).norm(), sample.time);
+    velocity.see((sample.v_CN_N - truth.v).norm(), sample.time);
   }
   return {position, velocity};
 }

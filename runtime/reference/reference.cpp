@@ -1,9 +1,7 @@
 // See reference.h. Tested by tests/runtime/reference_test.cpp.
 #include "runtime/reference/reference.h"
 
-#include <cmath>
-#include <numbers>
-
+#include "runtime/measure.h"
 #include "runtime/reference/kepler.h"
 #include "runtime/reference/spin_up.h"
 #include "runtime/reference/stored.h"
@@ -17,17 +15,7 @@ std::optional<bool> Deviation::pass() const {
   return max <= *tolerance;  // false for NaN
 }
 
-void widen(Deviation& deviation, double found, double time) {
-  if (found <= deviation.max || std::isnan(deviation.max)) return;
-  deviation.max = found;
-  deviation.at = time;
-}
-
-double angle_deg(const Quaterniond& a, const Quaterniond& b) {
-  const Quaterniond off = a.conjugate() * b;
-  const double angle = 2.0 * std::atan2(off.vec().norm(), std::abs(off.w()));
-  return angle * 180.0 / std::numbers::pi;
-}
+void Deviation::see(double found, double time) { keep_larger(found, time, max, at); }
 
 namespace {
 
@@ -72,7 +60,7 @@ std::optional<double> tolerance_of(std::string_view metric, const ReferenceToler
   if (metric == "rate_rad_s") return tolerance.rate;
   if (metric == "delta_v_relative") return tolerance.delta_v;
   if (!tolerance.attitude) return std::nullopt;
-  return *tolerance.attitude * 180.0 / std::numbers::pi;
+  return *tolerance.attitude * kDegrees;
 }
 
 }  // namespace

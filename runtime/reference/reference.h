@@ -22,16 +22,12 @@ struct Deviation {
 
   /// Nothing when there is no tolerance.
   std::optional<bool> pass() const;
+  /// What a sample at `time` shows; NaN counts as larger.
+  void see(double found, double time);
 };
 
 /// @pre inapplicable() has no objection; samples are not empty and samples[0] is the state at t = 0
 std::vector<Deviation> deviations(ReferenceKind kind, const Model& model,
                                   std::span<const Observation> samples);
-
-/// Keep the larger of `deviation` and a sample's `found` at `time`; NaN counts as larger.
-void widen(Deviation& deviation, double found, double time);
-
-/// The principal angle between two attitudes [deg], good near zero.
-double angle_deg(const Quaterniond& a, const Quaterniond& b);
 
 }  // namespace twincraft

@@ -26,7 +26,7 @@ void RunningDeviations::judge() {
     if (known == found_.end())
       found_.push_back(deviation);
     else
-      widen(*known, deviation.max, deviation.at);
+      known->see(deviation.max, deviation.at);
   }
   filled_ = 1;
   judged_ = true;

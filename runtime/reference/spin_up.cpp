@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "runtime/measure.h"
+
 namespace twincraft {
 namespace {
 
@@ -42,8 +44,8 @@ std::vector<Deviation> spin_up_deviations(const Model& model,
   for (const Observation& sample : samples) {
     const double time = sample.time - samples.front().time;
     const Quaterniond q_BN = samples.front().q_BN * truth.turn(time);
-    widen(attitude, angle_deg(q_BN, sample.q_BN), sample.time);
-    widen(rate, (sample.omega_BN_B - truth.omega_BN_B(time)).norm(), sample.time);
+    attitude.see(kDegrees * principal_angle(q_BN, sample.q_BN), sample.time);
+    rate.see((sample.omega_BN_B - truth.omega_BN_B(time)).norm(), sample.time);
   }
   return {attitude, rate};
 }

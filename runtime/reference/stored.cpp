@@ -3,12 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "runtime/measure.h"
 
 namespace twincraft {
 namespace {
-
-bool same_time(double a, double b) { return std::abs(a - b) <= 1.0e-12 * std::max(1.0, b); }
 
 /// Deviations of one quantity, if it is compared at all.
 struct Column {
@@ -18,7 +17,7 @@ struct Column {
   void see(double found, double time) {
     if (!any) deviation.at = time;  // also when there is no deviation at all
     any = true;
-    widen(deviation, found, time);
+    deviation.see(found, time);
   }
 };
 
@@ -31,14 +30,14 @@ struct Columns {
     const Vector3d& v = of_hub ? sample.v_BN_N : sample.v_CN_N;
     if (truth.position) position.see((r - *truth.position).norm(), time);
     if (truth.velocity) velocity.see((v - *truth.velocity).norm(), time);
-    if (truth.q_BN) attitude.see(angle_deg(*truth.q_BN, sample.q_BN), time);
+    if (truth.q_BN) attitude.see(kDegrees * principal_angle(*truth.q_BN, sample.q_BN), time);
     if (truth.omega_BN_B) rate.see((sample.omega_BN_B - *truth.omega_BN_B).norm(), time);
   }
 };
 
 Columns empty_columns(const StoredTruth& truth) {
   std::optional<double> attitude = truth.attitude;
-  if (attitude) *attitude *= 180.0 / std::numbers::pi;
+  if (attitude) *attitude *= kDegrees;
   return {{{.metric = "position_m", .tolerance = truth.position}},
           {{.metric = "velocity_m_s", .tolerance = truth.velocity}},
           {{.metric = "attitude_deg", .tolerance = attitude}},

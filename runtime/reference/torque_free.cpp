@@ -12,6 +12,8 @@
 #include <limits>
 #include <utility>
 
+#include "runtime/measure.h"
+
 namespace twincraft {
 namespace {
 
@@ -254,8 +256,8 @@ std::vector<Deviation> torque_free_deviations(const Model& model,
   Deviation rate{.metric = "rate_rad_s"};
   for (const Observation& sample : samples) {
     const EulerTop::State truth = top.at(sample.time - start.time);
-    widen(attitude, angle_deg(truth.q_BN, sample.q_BN), sample.time);
-    widen(rate, (sample.omega_BN_B - truth.omega_BN_B).norm(), sample.time);
+    attitude.see(kDegrees * principal_angle(truth.q_BN, sample.q_BN), sample.time);
+    rate.see((sample.omega_BN_B - truth.omega_BN_B).norm(), sample.time);
   }
   return {attitude, rate};
 }

@@ -65,9 +65,9 @@ std::vector<Deviation> tsiolkovsky_deviations(const Model& model,
     const Rocket::Gain gain = rocket.at(sample.time);
     const double off = (sample.v_CN_N - start.v_CN_N - start.q_BN * gain.velocity).norm();
     const Vector3d r = start.r_BN_N + sample.time * start.v_BN_N + start.q_BN * gain.position;
-    widen(velocity, off, sample.time);
-    widen(position, (sample.r_BN_N - r).norm(), sample.time);
-    if (gain.velocity.norm() > 0.0) widen(relative, off / gain.velocity.norm(), sample.time);
+    velocity.see(off, sample.time);
+    position.see((sample.r_BN_N - r).norm(), sample.time);
+    if (gain.velocity.norm() > 0.0) relative.see(off / gain.velocity.norm(), sample.time);
   }
   return {relative, velocity, position};
 }

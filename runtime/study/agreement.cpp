@@ -8,14 +8,12 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <numbers>
 
+#include "runtime/measure.h"
 #include "runtime/study/pairing.h"
 
 namespace twincraft {
 namespace {
-
-constexpr double kDegrees = 180.0 / std::numbers::pi;  // [deg/rad]
 
 using Difference = decltype(MetricLaw::difference);
 using Size = decltype(MetricLaw::size);
@@ -127,22 +125,11 @@ void add_coordinate_laws(const Model& model, std::vector<MetricLaw>& laws) {
 
 }  // namespace
 
-void Peak::see(double value, double time) {
-  // Once NaN, `maximum` compares false with everything and stays; a NaN value is taken at once.
-  if (std::isnan(maximum) || value <= maximum) return;
-  maximum = value;
-  at = time;
-}
+void Peak::see(double value, double time) { keep_larger(value, time, maximum, at); }
 
 std::optional<bool> Metric::pass() const {
   if (!tolerance) return std::nullopt;
   return maximum <= *tolerance;
-}
-
-double principal_angle(const Quaterniond& a, const Quaterniond& b) {
-  const Vector3d vec = a.w() * b.vec() - b.w() * a.vec() - a.vec().cross(b.vec());
-  const double scalar = a.w() * b.w() + a.vec().dot(b.vec());
-  return 2.0 * std::atan2(vec.norm(), std::abs(scalar));
 }
 
 std::vector<MetricLaw> metric_laws(const Model& model) {

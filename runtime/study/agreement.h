@@ -82,8 +82,4 @@ Comparison compare(const Model& model, const Trajectory& a, const Trajectory& b)
 /// judged.
 Comparison compare_hubs(bool translation, const Trajectory& a, const Trajectory& b);
 
-/// Angle [rad] of the rotation between two attitudes, in [0, pi]; keeps its relative accuracy down
-/// to rotations of about 1e-16 rad, where the arc cosine of the scalar part knows nothing.
-double principal_angle(const Quaterniond& a, const Quaterniond& b);
-
 }  // namespace twincraft

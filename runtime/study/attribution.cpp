@@ -9,6 +9,8 @@
 #include <numbers>
 #include <string_view>
 
+#include "runtime/measure.h"
+
 namespace twincraft {
 namespace {
 
@@ -202,8 +204,7 @@ std::optional<Subject> worst_joint(const Model& model, const Trajectory& a, cons
     double size = 0.0;
     for (const Observation& sample : a.samples)
       size = std::max(size, std::abs(sample.joint_position[joint]));
-    Subject subject{metric_of(coordinate.kind),
-                    coordinate.is_length() ? 1.0 : 180.0 / std::numbers::pi,
+    Subject subject{metric_of(coordinate.kind), coordinate.is_length() ? 1.0 : kDegrees,
                     kEpsilon * steps * size, joint, coordinate.name};
     const double off = error_of(subject, a, b).maximum();
     if (!(off > largest * subject.rounding)) continue;
@@ -221,7 +222,7 @@ std::vector<Subject> subjects_of(const Model& model, const Trajectory& a, const 
   for (const Observation& sample : a.samples) distance = std::max(distance, sample.r_CN_N.norm());
   std::vector<Subject> subjects;
   if (!model.simulation.translation)
-    subjects.push_back({"attitude_deg", 180.0 / std::numbers::pi, kEpsilon * steps});
+    subjects.push_back({"attitude_deg", kDegrees, kEpsilon * steps});
   subjects.push_back({"com_position_m", 1.0, kEpsilon * steps * distance});
   if (std::optional<Subject> joint = worst_joint(model, a, b, steps))
     subjects.push_back(std::move(*joint));

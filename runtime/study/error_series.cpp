@@ -4,13 +4,11 @@
 #include <cmath>
 #include <functional>
 
+#include "runtime/measure.h"
 #include "runtime/study/agreement.h"
 
 namespace twincraft {
 namespace {
-
-/// Runs at different steps reach one instant by different sums.
-bool same_time(double a, double b) { return std::abs(a - b) <= 1.0e-9 * (1.0 + std::abs(a)); }
 
 /// Calls `each(i, j)` for the samples i and j that were taken at one instant.
 template <class TimeA, class TimeB, class Each>

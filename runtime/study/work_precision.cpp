@@ -7,13 +7,12 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numbers>
 #include <tuple>
+
+#include "runtime/measure.h"
 
 namespace twincraft {
 namespace {
-
-constexpr double kDegrees = 180.0 / std::numbers::pi;  // [deg/rad]
 
 /// Null when the engine did not get to the end of the member's run.
 const EngineEnd* end_of(const StudyPoint& point, std::string_view engine) {

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "compiler/ir/angle.h"
 #include "runtime/study/run.h"
 #include "tests/runtime/handmade.h"
 

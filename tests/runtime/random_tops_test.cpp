@@ -15,6 +15,7 @@
 #include <cstdlib>
 #include <random>
 
+#include "compiler/ir/angle.h"
 #include "runtime/reference/torque_free.h"
 #include "tests/runtime/precise_top.h"
 
@@ -103,9 +104,9 @@ void expect_exact(const Tumble& tumble, const Quaterniond& q) {
   double attitude = 0.0, rate = 0.0;
   for (double time = 0.0; time <= tumble.duration; time += 4.0) {
     const EulerTop::State found = top.at(time);
-    attitude = std::max(attitude, angle_deg(found.q_BN, truth.q()));
+    attitude = std::max(attitude, kDegrees * principal_angle(found.q_BN, truth.q()));
     rate = std::max(rate, (found.omega_BN_B - truth.omega()).norm());
-    ASSERT_FALSE(std::isnan(angle_deg(found.q_BN, truth.q())));
+    ASSERT_FALSE(std::isnan(kDegrees * principal_angle(found.q_BN, truth.q())));
     truth.advance(4.0);
   }
   EXPECT_LE(attitude, kAttitude);

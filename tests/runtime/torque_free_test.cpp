@@ -7,6 +7,7 @@
 
 #include <cmath>
 
+#include "compiler/ir/angle.h"
 #include "runtime/study/propagate.h"
 #include "tests/runtime/toy_engine.h"
 
@@ -49,7 +50,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST_P(Top, StartsAsItIsTold) {
   const EulerTop::State start = EulerTop(I, omega0, q0).at(0.0);
   EXPECT_LT((start.omega_BN_B - omega0).norm(), 1.0e-16);
-  EXPECT_LT(angle_deg(start.q_BN, q0), 1.0e-13);
+  EXPECT_LT(kDegrees * principal_angle(start.q_BN, q0), 1.0e-13);
 }
 
 TEST_P(Top, KeepsItsEnergyAndAngularMomentumAtAnyTime) {

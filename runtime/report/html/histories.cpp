@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
+#include "runtime/measure.h"
 #include "runtime/report/html/base64.h"
 #include "runtime/report/html/decimate.h"
 #include "runtime/report/words.h"
@@ -16,8 +16,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 using Kind = Coordinate::Kind;
-
-constexpr double kDegrees = 180.0 / std::numbers::pi;  // [deg/rad]
 
 // What a page can hold: a screen has some 2000 columns of dots, and 300 000 numbers are 3.2 MB.
 constexpr std::size_t kMostPoints = 3000;
