@@ -3,7 +3,7 @@
 #pragma once
 
 #include "runtime/bsm/motion.h"
-#include "runtime/observation.h"
+#include "runtime/engine/observation.h"
 
 namespace twincraft::bsm {
 

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "runtime/bsm/kernel.h"
-#include "runtime/engine.h"
+#include "runtime/engine/engine.h"
 
 namespace twincraft {
 

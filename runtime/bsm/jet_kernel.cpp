@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "runtime/bsm/motion.h"
-#include "runtime/state.h"
+#include "runtime/engine/state.h"
 
 namespace twincraft::bsm {
 namespace {

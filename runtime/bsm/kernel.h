@@ -25,7 +25,7 @@ class Kernel {
   /// Hold these inputs from now on, one per lane.
   virtual void hold(std::span<const Plan* const> plans,
                     std::span<const HeldInputs* const> held) = 0;
-  /// rate = d(state)/dt, laid out as runtime/state.h says.
+  /// rate = d(state)/dt, laid out as runtime/engine/state.h says.
   virtual void derivative(const double* state, double* rate) = 0;
   /// MRP shadow switch or quaternion normalisation, in place.
   virtual void finish_step(double* state) const = 0;

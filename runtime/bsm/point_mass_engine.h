@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "runtime/engine.h"
+#include "runtime/engine/engine.h"
 
 namespace twincraft::bsm {
 

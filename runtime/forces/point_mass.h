@@ -4,7 +4,7 @@
 // Tested by tests/runtime/point_mass_test.cpp.
 #pragma once
 
-#include "runtime/engine.h"
+#include "runtime/engine/engine.h"
 
 namespace twincraft {
 

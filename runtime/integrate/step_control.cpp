@@ -11,7 +11,7 @@
 #include <numbers>
 
 #include "compiler/ir/number.h"
-#include "runtime/engine.h"
+#include "runtime/engine/engine.h"
 
 namespace twincraft {
 namespace {

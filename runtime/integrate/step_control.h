@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "runtime/integrate/runge_kutta.h"
-#include "runtime/state.h"
+#include "runtime/engine/state.h"
 
 namespace twincraft {
 

@@ -7,7 +7,7 @@
 
 #include "compiler/ir/number.h"
 #include "runtime/linear/amplification.h"
-#include "runtime/measure.h"
+#include "runtime/engine/measure.h"
 
 namespace twincraft {
 namespace {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "compiler/ir/model.h"
-#include "runtime/engine.h"
+#include "runtime/engine/engine.h"
 
 namespace twincraft {
 

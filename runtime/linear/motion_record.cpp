@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "compiler/ir/truth.h"
-#include "runtime/measure.h"
+#include "runtime/engine/measure.h"
 #include "runtime/reference/reference.h"
 
 namespace twincraft {

@@ -6,7 +6,7 @@
 
 #include "runtime/bsm/engine.h"
 #include "runtime/linear/linearise.h"
-#include "runtime/measure.h"
+#include "runtime/engine/measure.h"
 #include "runtime/reference/reference.h"
 
 namespace twincraft {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "compiler/ir/model.h"
-#include "runtime/engine.h"
+#include "runtime/engine/engine.h"
 #include "runtime/integrate/runge_kutta.h"
 
 namespace twincraft {

@@ -10,7 +10,7 @@
 
 #include "compiler/ir/number.h"
 #include "runtime/linear/judge.h"
-#include "runtime/measure.h"
+#include "runtime/engine/measure.h"
 
 namespace twincraft {
 namespace {

@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "runtime/engine.h"
+#include "runtime/engine/engine.h"
 
 namespace twincraft {
 

@@ -4,7 +4,7 @@
 
 #include <mujoco/mujoco.h>
 
-#include "runtime/held.h"
+#include "runtime/engine/held.h"
 #include "runtime/mujoco/tree_map.h"
 
 namespace twincraft {

@@ -7,7 +7,7 @@
 
 #include <mujoco/mujoco.h>
 
-#include "runtime/held.h"
+#include "runtime/engine/held.h"
 
 namespace twincraft {
 

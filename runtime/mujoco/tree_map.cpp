@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "runtime/engine.h"
+#include "runtime/engine/engine.h"
 
 namespace twincraft {
 namespace {

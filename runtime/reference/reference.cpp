@@ -1,7 +1,7 @@
 // See reference.h. Tested by tests/runtime/reference_test.cpp.
 #include "runtime/reference/reference.h"
 
-#include "runtime/measure.h"
+#include "runtime/engine/measure.h"
 #include "runtime/reference/kepler.h"
 #include "runtime/reference/spin_up.h"
 #include "runtime/reference/stored.h"

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "compiler/ir/truth.h"
-#include "runtime/observation.h"
+#include "runtime/engine/observation.h"
 
 namespace twincraft {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "runtime/measure.h"
+#include "runtime/engine/measure.h"
 
 namespace twincraft {
 namespace {

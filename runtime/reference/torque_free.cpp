@@ -12,7 +12,7 @@
 #include <limits>
 #include <utility>
 
-#include "runtime/measure.h"
+#include "runtime/engine/measure.h"
 
 namespace twincraft {
 namespace {

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <functional>
 
-#include "runtime/measure.h"
+#include "runtime/engine/measure.h"
 #include "runtime/study/pairing.h"
 
 namespace twincraft {

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <string_view>
 
-#include "runtime/measure.h"
+#include "runtime/engine/measure.h"
 
 namespace twincraft {
 namespace {

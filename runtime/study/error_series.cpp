@@ -4,7 +4,7 @@
 #include <cmath>
 #include <functional>
 
-#include "runtime/measure.h"
+#include "runtime/engine/measure.h"
 #include "runtime/study/agreement.h"
 
 namespace twincraft {

@@ -8,7 +8,7 @@
 #include <functional>
 #include <utility>
 
-#include "runtime/observation.h"
+#include "runtime/engine/observation.h"
 
 namespace twincraft {
 

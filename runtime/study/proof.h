@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "compiler/ir/bundle.h"
-#include "runtime/engine.h"
+#include "runtime/engine/engine.h"
 
 namespace twincraft {
 

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "runtime/engine.h"
+#include "runtime/engine/engine.h"
 #include "runtime/integrate/step_control.h"
 
 namespace twincraft {

@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "runtime/state.h"
+#include "runtime/engine/state.h"
 
 namespace twincraft {
 

@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-#include "runtime/held.h"
+#include "runtime/engine/held.h"
 
 namespace twincraft {
 

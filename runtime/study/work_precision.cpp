@@ -9,7 +9,7 @@
 #include <map>
 #include <tuple>
 
-#include "runtime/measure.h"
+#include "runtime/engine/measure.h"
 
 namespace twincraft {
 namespace {

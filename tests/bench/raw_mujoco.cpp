@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "runtime/engine.h"
+#include "runtime/engine/engine.h"
 #include "runtime/integrate/tableau.h"
 
 namespace twincraft::bench {

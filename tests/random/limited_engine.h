@@ -4,7 +4,7 @@
 
 #include <atomic>
 
-#include "runtime/engine.h"
+#include "runtime/engine/engine.h"
 
 namespace twincraft::random_vehicles {
 

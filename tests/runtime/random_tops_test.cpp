@@ -67,9 +67,10 @@ class Tops {
     return {masses.sum() * Vector3d::Ones() - masses, omega};
   }
 
-  /// Two moments alike, or three, exactly or nearly.
+  /// Two moments alike, or three, exactly or nearly. Three may not be farther apart than by half of
+  /// one, else they are no body's, and PreciseTop's series do not converge.
   void symmetric(Tumble& top) {
-    const double off = axis() == 0 ? 0.0 : small(-15.0);
+    const double off = axis() == 0 ? 0.0 : 0.5 * small(-15.0);
     const Eigen::Index first = axis();
     top.moments[(first + 1) % 3] = top.moments[first] * (1.0 + off);
     const bool is_ball = axis() == 0 || !is_physical(top.moments);

@@ -12,7 +12,7 @@
 #include <limits>
 #include <numbers>
 
-#include "runtime/engine.h"
+#include "runtime/engine/engine.h"
 #include "runtime/integrate/step_control.h"
 
 namespace twincraft {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "compiler/ir/model.h"
-#include "runtime/observation.h"
+#include "runtime/engine/observation.h"
 
 namespace twincraft {
 

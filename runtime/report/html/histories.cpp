@@ -6,7 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "runtime/measure.h"
+#include "runtime/engine/measure.h"
 #include "runtime/report/html/base64.h"
 #include "runtime/report/html/decimate.h"
 #include "runtime/report/words.h"

@@ -7,9 +7,9 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "runtime/held.h"
-#include "runtime/observation.h"
-#include "runtime/state.h"
+#include "runtime/engine/held.h"
+#include "runtime/engine/observation.h"
+#include "runtime/engine/state.h"
 
 namespace twincraft {
 
