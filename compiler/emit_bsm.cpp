@@ -131,7 +131,7 @@ Json nozzle_json(const Nozzle& nozzle) {
           {"mass_flow_kg_s", schedule_json(nozzle.mass_flow)}};
 }
 
-Json initial_json(const InitialState& initial) {
+Json initial_json(const VehicleState& initial) {
   const Quaterniond& q = initial.q_BN;
   return {{"r_BN_N_m", vector_json(initial.r_BN_N)},
           {"v_BN_N_m_s", vector_json(initial.v_BN_N)},
@@ -139,7 +139,7 @@ Json initial_json(const InitialState& initial) {
           {"omega_BN_B_rad_s", vector_json(initial.omega_BN_B)},
           {"joint_position", initial.joint_position},
           {"joint_rate", initial.joint_rate},
-          {"rotor_speed_rad_s", initial.rotor_speed}};
+          {"rotor_speed_rad_s", initial.wheel_rate}};
 }
 
 template <class Items, class Print>

@@ -100,7 +100,7 @@ MjcfPrinter::MjcfPrinter(const Model& model) : model_(model), children_(model.tr
   }
   for (const TreeWheel& wheel : model.tree.wheels) {
     const auto rotor = static_cast<std::size_t>(wheel.rotor);
-    starts_[wheel.joint] = {0.0, model.initial.rotor_speed[rotor]};
+    starts_[wheel.joint] = {0.0, model.initial.wheel_rate[rotor]};
   }
 }
 
@@ -268,7 +268,7 @@ void MjcfPrinter::motor(const std::string& joint, const Schedule& effort) {
 
 // The keyframe starts the hub at the origin, where a viewer can see it; the orbit is kept aside.
 void MjcfPrinter::initial_state() {
-  const InitialState& initial = model_.initial;
+  const VehicleState& initial = model_.initial;
   open("custom");
   leaf("numeric", {{"name", "hub_position"}, {"data", text(initial.r_BN_N)}});
   leaf("numeric", {{"name", "hub_velocity"}, {"data", text(initial.v_BN_N)}});

@@ -163,7 +163,7 @@ int ModelBuilder::add_wheel(const Mount& mount, const Rotor& rotor, const MassEl
   model_.assembly.rotors.push_back(rotor);
   model_.assembly.rotors.back().link = mount.link;
   model_.assembly.rotors.back().axis_L = mount.dcm_LM * rotor.axis_L;
-  put(model_.initial.rotor_speed, index, 0.0);
+  put(model_.initial.wheel_rate, index, 0.0);
 
   CarriedWheel wheel{mount, element, size_of(model_.tree.bodies)};
   MassElement token;
@@ -198,7 +198,7 @@ void ModelBuilder::add_coordinate(Coordinate::Kind kind, const std::string& name
                                   double position, double rate) {
   model_.coordinates.push_back({name, kind, index});
   if (kind == Coordinate::Kind::kWheel) {
-    put(model_.initial.rotor_speed, index, rate);
+    put(model_.initial.wheel_rate, index, rate);
   } else {
     put(model_.initial.joint_position, index - 1, position);
     put(model_.initial.joint_rate, index - 1, rate);

@@ -369,7 +369,7 @@ void compare_elements(const Model& model, std::vector<std::string>& failures) {
 }  // namespace
 
 bool is_finite(const Model& model) {
-  const InitialState& initial = model.initial;
+  const VehicleState& initial = model.initial;
   return initial.r_BN_N.allFinite() && initial.v_BN_N.allFinite() &&
          initial.q_BN.coeffs().allFinite() && initial.omega_BN_B.allFinite() &&
          mass_matrix(machine_of_assembly(model), initial_configuration(model),

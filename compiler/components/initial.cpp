@@ -24,7 +24,7 @@ void check_place(const InitialSpec& initial, const GravitySpec& gravity, Diagnos
 }
 
 /// Move the state from C to B. @pre attitude, rate and coordinates are set
-void move_to_hub(const Assembly& assembly, InitialState& state) {
+void move_to_hub(const Assembly& assembly, VehicleState& state) {
   const std::vector<LinkMotion> links =
       configuration(assembly, state.joint_position, state.joint_rate);
   const Vector3d c_B = system_properties(assembly, links).r_CL_L;  // [m] C from B
@@ -83,7 +83,7 @@ void check(const InitialSpec& initial, const EnvironmentSpec& environment,
 
 void lower(const InitialSpec& initial, const EnvironmentSpec& environment, Model& model) {
   const PointState point = start(initial, environment);
-  InitialState& state = model.initial;
+  VehicleState& state = model.initial;
   if (initial.attitude) state.q_BN = orientation(*initial.attitude, point);
   state.omega_BN_B = initial.rate;
   state.r_BN_N = point.r_N;

@@ -48,15 +48,15 @@ struct Gravity {
   GravityLaw mujoco = GravityLaw::kNone;
 };
 
-/// Everything at t = 0, already resolved to the hub origin B; both engines start here.
-struct InitialState {
-  Vector3d r_BN_N = Vector3d::Zero();          // [m]
+/// Where a vehicle is and how it moves, whatever an engine's state vector looks like.
+struct VehicleState {
+  Vector3d r_BN_N = Vector3d::Zero();          // hub origin [m]
   Vector3d v_BN_N = Vector3d::Zero();          // [m/s]
   Quaterniond q_BN = Quaterniond::Identity();  // B to N components
   Vector3d omega_BN_B = Vector3d::Zero();      // [rad/s]
-  std::vector<double> joint_position;          // one per link but the hub
+  std::vector<double> joint_position;          // [rad] or [m], one per link but the hub
   std::vector<double> joint_rate;
-  std::vector<double> rotor_speed;  // [rad/s] relative to the mount
+  std::vector<double> wheel_rate;  // [rad/s] relative to the mount, one per rotor
 };
 
 enum class Method { kEuler, kRk2, kRk4, kRkf45, kRkf78 };
@@ -144,7 +144,7 @@ struct Model {
   std::vector<Tank> tanks;
   std::vector<Nozzle> nozzles;  // of the tanks whose propellant leaves as a jet, and only those
   Gravity gravity;
-  InitialState initial;
+  VehicleState initial;  // at t = 0; both engines start here
   SimulationPlan simulation;
   EngineControls engines;
   Agreement agreement;

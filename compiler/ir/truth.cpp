@@ -60,7 +60,7 @@ bool pushes(const Load& load, double duration) {
 bool drains(const Tank& tank, double duration) { return tank.content_at(duration) != tank.content; }
 
 bool is_elliptic(const Model& model) {
-  const InitialState& initial = model.initial;
+  const VehicleState& initial = model.initial;
   const std::vector<LinkMotion> links =
       configuration(model.assembly, initial.joint_position, initial.joint_rate);
   const Vector3d c = system_properties(model.assembly, links).r_CL_L;

@@ -4,7 +4,6 @@
 #include <limits>
 #include <utility>
 
-#include "runtime/bsm/attitude.h"
 #include "runtime/bsm/books.h"
 #include "runtime/bsm/jet_kernel.h"
 #include "runtime/bsm/kernel.h"
@@ -22,8 +21,6 @@ std::vector<std::vector<MassElement>> elements_of(const Assembly& assembly) {
   for (const Link& link : assembly.links) elements.push_back(link.elements);
   return elements;
 }
-
-Vector3d three(std::span<const double> values, int at) { return Vector3d::Map(values.data() + at); }
 
 class BsmEngine final : public Engine {
  public:
@@ -48,25 +45,7 @@ class BsmEngine final : public Engine {
   std::string_view name() const override { return "bsm"; }
   const StateLayout& layout() const override { return layout_; }
 
-  Eigen::VectorXd initial_state() const override {
-    Eigen::VectorXd state(layout_.size());
-    state.segment<3>(StateLayout::position()) = initial_.r_BN_N;
-    state.segment<3>(StateLayout::velocity()) = initial_.v_BN_N;
-    if (layout_.chart == AttitudeChart::kMrp) {
-      state.segment<3>(StateLayout::attitude()) = mrp_from(initial_.q_BN);
-    } else {
-      const Quaterniond& q = initial_.q_BN;
-      state.segment<4>(StateLayout::attitude()) << q.w(), q.x(), q.y(), q.z();
-    }
-    state.segment<3>(layout_.rate()) = initial_.omega_BN_B;
-    const auto put = [&state](int at, const std::vector<double>& values) {
-      for (std::size_t i = 0; i < values.size(); ++i) state[at + static_cast<int>(i)] = values[i];
-    };
-    put(layout_.joint(), initial_.joint_position);
-    put(layout_.joint_rate(), initial_.joint_rate);
-    put(layout_.wheel(), initial_.rotor_speed);
-    return state;
-  }
+  Eigen::VectorXd initial_state() const override { return pack(initial_, layout_); }
 
   void hold_inputs(double time) override {
     held_.set(assembly_, loads_, time);
@@ -90,28 +69,20 @@ class BsmEngine final : public Engine {
   Observation observe(double time, std::span<const double> state) override {
     drain_all(time);
     const State x = read(state);
-    Observation o;
+    Observation o{copied(x)};
     o.time = time;
-    o.r_BN_N = x.r_BN_N;
-    o.v_BN_N = x.v_BN_N;
-    o.omega_BN_B = x.omega_BN_B;
-    o.joint_position.assign(x.q.begin(), x.q.end());
-    o.joint_rate.assign(x.q_dot.begin(), x.q_dot.end());
-    o.wheel_rate.assign(x.rotor_speed.begin(), x.rotor_speed.end());
-    const Motion motion = motion_of(plan_.tree, x.q, x.q_dot, x.omega_BN_B);
-    fill_books(sum_up(motion, assembly_, shares_, x.rotor_speed), x.dcm_NB, o);
-    o.springs = spring_energy(plan_.tree, x.q);
+    const Motion motion = motion_of(plan_.tree, x.joint_position, x.joint_rate, x.omega_BN_B);
+    fill_books(sum_up(motion, assembly_, shares_, x.wheel_rate), x.dcm_NB, o);
+    o.springs = spring_energy(plan_.tree, x.joint_position);
     o.potential = o.springs + forces_.potential(x.dcm_NB.transpose() * x.r_BN_N, motion.poses);
-    o.q_BN = x.q_BN;
-    if (o.q_BN.w() < 0.0) o.q_BN.coeffs() = -o.q_BN.coeffs();
     return o;
   }
 
   ExternalRates external_rates(double time, std::span<const double> state) override {
     drain_all(time);
     const State x = read(state);
-    Motion motion = motion_of(plan_.tree, x.q, x.q_dot, x.omega_BN_B);
-    const Totals totals = sum_up(motion, assembly_, shares_, x.rotor_speed);
+    Motion motion = motion_of(plan_.tree, x.joint_position, x.joint_rate, x.omega_BN_B);
+    const Totals totals = sum_up(motion, assembly_, shares_, x.wheel_rate);
     const Vector3d r_BN_B = x.dcm_NB.transpose() * x.r_BN_N;
     const Vector3d v_BN_B = x.dcm_NB.transpose() * x.v_BN_N;
     std::vector<Wrench> wrenches(motion.poses.size());
@@ -124,8 +95,9 @@ class BsmEngine final : public Engine {
       force_B += wrench.force_W;
       torque_PntC_B += wrench.torque_PntB_W - totals.r_CB_B.cross(wrench.force_W);
     }
-    const double inner_power = joint_power(plan_.tree, x.q, x.q_dot, held_.effort) +
-                               motor_power(x.rotor_speed, held_.motor_torque);
+    const double inner_power =
+        joint_power(plan_.tree, x.joint_position, x.joint_rate, held_.effort) +
+        motor_power(x.wheel_rate, held_.motor_torque);
     double power = inner_power;
     const Vector3d v_CB_B = totals.momentum_B / totals.mass;
     double own_power = inner_power + work_rate(wrenches, motion.poses, motion.rates, v_CB_B);
@@ -149,8 +121,8 @@ class BsmEngine final : public Engine {
 
   Eigen::MatrixXd mass_matrix(std::span<const double> state) override {
     const State x = read(state);
-    return dense_mass_matrix(plan_.tree, motion_of(plan_.tree, x.q, x.q_dot, x.omega_BN_B),
-                             x.dcm_NB);
+    return dense_mass_matrix(
+        plan_.tree, motion_of(plan_.tree, x.joint_position, x.joint_rate, x.omega_BN_B), x.dcm_NB);
   }
 
   HeldMachine held() const override {
@@ -177,30 +149,13 @@ class BsmEngine final : public Engine {
   }
 
  private:
-  struct State {
-    Vector3d r_BN_N, v_BN_N, omega_BN_B;
-    Quaterniond q_BN;
+  struct State : UnpackedState {
     Matrix3d dcm_NB;
-    std::span<const double> q, q_dot, rotor_speed;
   };
 
   State read(std::span<const double> state) const {
-    const auto block = [&state](int at, int size) {
-      return state.subspan(static_cast<std::size_t>(at), static_cast<std::size_t>(size));
-    };
-    const double* attitude = state.data() + StateLayout::attitude();
-    const Quaterniond q_BN =
-        layout_.chart == AttitudeChart::kMrp
-            ? quaternion_from(Vector3d::Map(attitude))
-            : Quaterniond(attitude[0], attitude[1], attitude[2], attitude[3]).normalized();
-    return {three(state, StateLayout::position()),
-            three(state, StateLayout::velocity()),
-            three(state, layout_.rate()),
-            q_BN,
-            q_BN.toRotationMatrix(),
-            block(layout_.joint(), layout_.joints),
-            block(layout_.joint_rate(), layout_.joints),
-            block(layout_.wheel(), layout_.wheels)};
+    const UnpackedState x = unpack(state, layout_);
+    return {x, x.q_BN.toRotationMatrix()};
   }
 
   /// What depends on mass follows the tanks: in a step the kernel alone, else all.
@@ -218,7 +173,7 @@ class BsmEngine final : public Engine {
   }
 
   Assembly assembly_;
-  InitialState initial_;
+  VehicleState initial_;
   std::vector<Load> loads_;
   PropellantLedger propellant_;
   std::span<const double> shares_;

@@ -2,31 +2,25 @@
 // engine, whatever its state vector looks like. All comparison happens on these.
 #pragma once
 
-#include <vector>
-
-#include "compiler/ir/mass.h"
+#include "compiler/ir/model.h"
 
 namespace twincraft {
 
-struct Observation {
+/// The scalar of q_BN is not negative.
+struct Observation : VehicleState {
   double time = 0.0;                   // [s]
-  Vector3d r_BN_N, v_BN_N;             // hub origin [m], [m/s]
-  Quaterniond q_BN;                    // B to N components, scalar not negative
-  Vector3d omega_BN_B;                 // [rad/s]
-  Vector3d r_CN_N, v_CN_N;             // system centre of mass
-  std::vector<double> joint_position;  // [rad] or [m], one per link but the hub
-  std::vector<double> joint_rate;
-  std::vector<double> wheel_rate;  // [rad/s] relative to the mount
-  double mass = 0.0;               // [kg]
+  Vector3d r_CN_N = Vector3d::Zero();  // system centre of mass [m]
+  Vector3d v_CN_N = Vector3d::Zero();  // [m/s]
+  double mass = 0.0;                   // [kg]
 
   // The books of conservation, of the engine's own masses.
   double kinetic = 0.0;    // [J] in N
   double potential = 0.0;  // [J] springs; gravity as -sum mu m/r (system_com: of all mass at C)
   // The vehicle's own motion: what an orbit does not hide.
-  double own_kinetic = 0.0;  // [J] about C
-  double springs = 0.0;      // [J]
-  Vector3d momentum;         // [kg m/s] in N
-  Vector3d H_PntC_N;         // [kg m^2/s] angular momentum about C
+  double own_kinetic = 0.0;              // [J] about C
+  double springs = 0.0;                  // [J]
+  Vector3d momentum = Vector3d::Zero();  // [kg m/s] in N
+  Vector3d H_PntC_N = Vector3d::Zero();  // [kg m^2/s] angular momentum about C
   // Sums of the magnitudes of what is added up (momentum: of the hub origin's velocity and of each
   // body's beyond it): what "relative" means for a total near zero.
   double momentum_scale = 0.0;

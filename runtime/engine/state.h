@@ -1,7 +1,8 @@
 // The state both engines integrate: one flat vector, the same blocks in the same order.
 #pragma once
 
-#include <cstddef>
+#include <Eigen/Core>
+#include <span>
 
 #include "compiler/ir/model.h"
 
@@ -34,5 +35,19 @@ struct StateLayout {
   /// Velocity coordinates.
   int degrees_of_freedom() const { return 3 + rate_size() + joints + wheels; }
 };
+
+/// `state` as a state vector.
+Eigen::VectorXd pack(const VehicleState& state, const StateLayout& layout);
+
+/// What a state vector says, joints and wheels in place. A quaternion is read as if normalised.
+struct UnpackedState {
+  Vector3d r_BN_N, v_BN_N, omega_BN_B;
+  Quaterniond q_BN;
+  std::span<const double> joint_position, joint_rate, wheel_rate;
+};
+UnpackedState unpack(std::span<const double> state, const StateLayout& layout);
+
+/// The same with a memory of its own, and the scalar of q_BN not negative.
+VehicleState copied(const UnpackedState& state);
 
 }  // namespace twincraft

@@ -34,12 +34,6 @@ PointMassEngine::PointMassEngine(const Model& model, GravityLaw law)
   PointMassEngine::hold_inputs(0.0);
 }
 
-Eigen::VectorXd PointMassEngine::initial_state() const {
-  Eigen::VectorXd state(layout_.size());
-  state << initial_.r_BN_N, initial_.v_BN_N;
-  return state;
-}
-
 void PointMassEngine::hold_inputs(double time) {
   force_N_.setZero();
   for (const Load& load : loads_) {
@@ -57,12 +51,8 @@ Vector3d PointMassEngine::gravity(const Vector3d& r_BN_N) const {
 }
 
 Observation PointMassEngine::observe(double time, std::span<const double> state) {
-  Observation seen;
+  Observation seen{copied(unpack(state, layout_))};
   seen.time = time;
-  seen.r_BN_N = position(state);
-  seen.v_BN_N = velocity(state);
-  seen.q_BN = Quaterniond::Identity();
-  seen.omega_BN_B = Vector3d::Zero();
   seen.r_CN_N = seen.r_BN_N + r_CB_N_;
   seen.v_CN_N = seen.v_BN_N;
   seen.mass = mass();
@@ -70,7 +60,6 @@ Observation PointMassEngine::observe(double time, std::span<const double> state)
   seen.potential = mu_ == 0.0 ? 0.0 : -mu_ * seen.mass / seen.r_CN_N.norm();
   seen.momentum = seen.mass * seen.v_CN_N;
   seen.momentum_scale = seen.momentum.norm();
-  seen.H_PntC_N = Vector3d::Zero();
   return seen;
 }
 

@@ -11,7 +11,7 @@ namespace twincraft {
 class PointMassEngine : public Engine {
  public:
   const StateLayout& layout() const override { return layout_; }
-  Eigen::VectorXd initial_state() const override;
+  Eigen::VectorXd initial_state() const override { return pack(initial_, layout_); }
   void hold_inputs(double time) override;
   void derivative(double time, std::span<const double> state, std::span<double> rate) override;
   void finish_step(std::span<double>) override {}
@@ -30,7 +30,7 @@ class PointMassEngine : public Engine {
 
  private:
   std::vector<Load> loads_;
-  InitialState initial_;
+  VehicleState initial_;
   double mu_;        // [m^3/s^2] zero without gravity
   Vector3d r_CB_N_;  // [m] where in the hub the mass is
   StateLayout layout_{.translation = true};

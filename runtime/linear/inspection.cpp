@@ -27,7 +27,7 @@ std::vector<double> hardest(const Model& model, const std::vector<double>& event
                             std::size_t count) {
   if (events.size() <= count) return events;
   OwnMotion motion(model);
-  Observation start = initial_observation(model);
+  const Observation start{model.initial};
   std::vector<double> shakes;
   for (std::size_t i = 0; i < events.size(); ++i) {
     const double before = i == 0 ? 0.0 : events[i - 1];

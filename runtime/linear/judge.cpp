@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "compiler/ir/number.h"
-#include "runtime/linear/amplification.h"
 #include "runtime/engine/measure.h"
+#include "runtime/linear/amplification.h"
 
 namespace twincraft {
 namespace {
@@ -24,7 +24,7 @@ constexpr double kMostSteps = 1.0e9;    // of a run: a step that takes more is n
 std::vector<Observation> foreseen(const Model& model, const Inspection& inspection) {
   std::vector<Observation> instants;
   for (const double time : inspection.all()) {
-    instants.push_back(initial_observation(model));
+    instants.push_back({model.initial});
     instants.back().time = time;
   }
   return instants;

@@ -58,33 +58,6 @@ int leading_entry(const OwnMotion& motion, const Eigen::VectorXcd& shape, double
 
 }  // namespace
 
-Eigen::VectorXd state_of(const Observation& seen, const StateLayout& layout) {
-  Eigen::VectorXd state(layout.size());
-  const auto entries = [](const std::vector<double>& values) {
-    return Eigen::VectorXd::Map(values.data(), static_cast<Eigen::Index>(values.size()));
-  };
-  const Quaterniond& q = seen.q_BN;
-  if (layout.translation)
-    state << seen.r_BN_N, seen.v_BN_N;
-  else
-    state << seen.r_BN_N, seen.v_BN_N, q.w(), q.vec(), seen.omega_BN_B,
-        entries(seen.joint_position), entries(seen.joint_rate), entries(seen.wheel_rate);
-  return state;
-}
-
-Observation initial_observation(const Model& model) {
-  const InitialState& initial = model.initial;
-  Observation start;
-  start.r_BN_N = initial.r_BN_N;
-  start.v_BN_N = initial.v_BN_N;
-  start.q_BN = initial.q_BN;
-  start.omega_BN_B = initial.omega_BN_B;
-  start.joint_position = initial.joint_position;
-  start.joint_rate = initial.joint_rate;
-  start.wheel_rate = initial.rotor_speed;
-  return start;
-}
-
 OwnMotion::OwnMotion(const Model& model)
     : engine_(make_bsm_engine(in_deep_space(model))),
       joints_(engine_->layout().joints),
@@ -109,12 +82,12 @@ Eigen::VectorXd OwnMotion::reduced(double time, const Eigen::VectorXd& state) {
 
 Eigen::VectorXd OwnMotion::rates(const Observation& seen, double inputs_at) {
   engine_->hold_inputs(inputs_at);
-  return reduced(seen.time, state_of(seen, engine_->layout()));
+  return reduced(seen.time, pack(seen, engine_->layout()));
 }
 
 Eigen::MatrixXd OwnMotion::jacobian(const Observation& seen, double inputs_at) {
   engine_->hold_inputs(inputs_at);
-  Eigen::VectorXd state = state_of(seen, engine_->layout());
+  Eigen::VectorXd state = pack(seen, engine_->layout());
   Eigen::MatrixXd A(size(), size());
   for (int entry = 0; entry < size(); ++entry) {
     double& value = state[state_entry(entry)];

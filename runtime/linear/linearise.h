@@ -64,10 +64,4 @@ class OwnMotion {
 std::vector<Mode> decompose(const OwnMotion& motion, const Eigen::MatrixXd& A,
                             const Eigen::VectorXd& drive, double slowest);
 
-/// What an engine would show of itself at t = 0; sums are left out.
-Observation initial_observation(const Model& model);
-
-/// The state that an engine with this layout had when it showed `seen`.
-Eigen::VectorXd state_of(const Observation& seen, const StateLayout& layout);
-
 }  // namespace twincraft

@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "runtime/bsm/engine.h"
-#include "runtime/linear/linearise.h"
 #include "runtime/engine/measure.h"
+#include "runtime/linear/linearise.h"
 #include "runtime/reference/reference.h"
 
 namespace twincraft {
@@ -52,7 +52,7 @@ Prober::Prober(const Model& model)
 Prober::~Prober() = default;
 
 Observation Prober::stepped(const Observation& seen, double h, int steps) {
-  const Eigen::VectorXd state = state_of(seen, engine_->layout());
+  const Eigen::VectorXd state = pack(seen, engine_->layout());
   stepper_.restart({state.data(), static_cast<std::size_t>(state.size())});
   for (int step = 0; step < steps; ++step) stepper_.step(seen.time + step * h, h);
   return engine_->observe(seen.time + steps * h, stepper_.state());

@@ -69,7 +69,7 @@ class MujocoEngine final : public Engine {
 
   std::string_view name() const override { return "mujoco"; }
   const StateLayout& layout() const override { return exchange_.layout(); }
-  Eigen::VectorXd initial_state() const override;
+  Eigen::VectorXd initial_state() const override { return pack(initial_, layout()); }
   void hold_inputs(double time) override;
   void derivative(double time, std::span<const double> state, std::span<double> rate) override;
   void finish_step(std::span<double> state) override;
@@ -93,7 +93,7 @@ class MujocoEngine final : public Engine {
   std::vector<int> dof_order() const;
 
   Assembly assembly_;
-  InitialState initial_;
+  VehicleState initial_;
   Placement placement_;
   GravityLaw law_;
   MujocoModel model_;
@@ -137,17 +137,6 @@ MujocoEngine::MujocoEngine(const Model& model, const std::string& mjcf)
       wrenches_(poses_.size()),
       link_rates_(poses_.size()) {
   hold_inputs(0.0);
-}
-
-Eigen::VectorXd MujocoEngine::initial_state() const {
-  const auto entries = [](const std::vector<double>& values) {
-    return Eigen::VectorXd::Map(values.data(), static_cast<Eigen::Index>(values.size()));
-  };
-  const Quaterniond& q = initial_.q_BN;
-  Eigen::VectorXd state(layout().size());
-  state << initial_.r_BN_N, initial_.v_BN_N, q.w(), q.x(), q.y(), q.z(), initial_.omega_BN_B,
-      entries(initial_.joint_position), entries(initial_.joint_rate), entries(initial_.rotor_speed);
-  return state;
 }
 
 void MujocoEngine::hold_inputs(double time) {
@@ -265,22 +254,10 @@ MotionSums MujocoEngine::move_to(std::span<const double> state) {
 Observation MujocoEngine::observe(double time, std::span<const double> state) {
   drain(time);
   const MotionSums sums = move_to(state);
-  const StateLayout& layout = this->layout();
-  const double* x = state.data();
-  const double* q = x + StateLayout::attitude();
-  const auto entries = [x](int begin, int end) { return std::vector(x + begin, x + end); };
-  Observation seen;
+  Observation seen{copied(unpack(state, layout()))};
   seen.time = time;
-  seen.r_BN_N = Input(x + StateLayout::position());
-  seen.v_BN_N = Input(x + StateLayout::velocity());
-  seen.q_BN = Quaterniond(q[0], q[1], q[2], q[3]).normalized();
-  if (seen.q_BN.w() < 0.0) seen.q_BN.coeffs() *= -1.0;
-  seen.omega_BN_B = Input(x + layout.rate());
   seen.r_CN_N = seen.r_BN_N + sums.r_CB_N;
   seen.v_CN_N = sums.v_CN_N;
-  seen.joint_position = entries(layout.joint(), layout.joint_rate());
-  seen.joint_rate = entries(layout.joint_rate(), layout.wheel());
-  seen.wheel_rate = entries(layout.wheel(), layout.size());
   seen.mass = sums.mass;
   seen.kinetic = sums.kinetic;
   seen.own_kinetic = sums.own_kinetic;

@@ -98,7 +98,8 @@ void add_attitude_laws(const Agreement& tolerance, std::vector<MetricLaw>& laws)
 
 void add_translation_laws(const Agreement& tolerance, std::vector<MetricLaw>& laws) {
   // The position tolerance speaks of the system's centre of mass; B's own position has none.
-  const auto r_BN_N = &Observation::r_BN_N, v_BN_N = &Observation::v_BN_N,
+  using Part = Vector3d Observation::*;
+  const Part r_BN_N = &Observation::r_BN_N, v_BN_N = &Observation::v_BN_N,
              r_CN_N = &Observation::r_CN_N;
   laws.push_back({"position_m", 1.0, std::nullopt, distance(r_BN_N), position_size(r_BN_N)});
   laws.push_back({"velocity_m_s", 1.0, tolerance.velocity, distance(v_BN_N), length(v_BN_N)});

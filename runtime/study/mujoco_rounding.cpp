@@ -14,11 +14,6 @@ namespace {
 
 constexpr std::size_t kSamples = 50;  // looked at, of a run
 
-RandomState state_of(const Observation& seen) {
-  return {seen.time,       seen.r_BN_N,         seen.v_BN_N,     seen.q_BN,
-          seen.omega_BN_B, seen.joint_position, seen.joint_rate, seen.wheel_rate};
-}
-
 std::span<const double> view(const Eigen::VectorXd& y) {
   return {y.data(), static_cast<std::size_t>(y.size())};
 }
@@ -39,13 +34,12 @@ class Prediction {
         mujoco_(make_mujoco_engine(bundle.model, bundle.mjcf)) {}
 
   double at(const Observation& seen) {
-    const RandomState state = state_of(seen);
-    const Eigen::VectorXd x = state_vector(state, bsm_->layout());
-    const Eigen::VectorXd y = state_vector(state, mujoco_->layout());
-    bsm_->hold_inputs(state.time);
-    mujoco_->hold_inputs(state.time);
+    const Eigen::VectorXd x = pack(seen, bsm_->layout());
+    const Eigen::VectorXd y = pack(seen, mujoco_->layout());
+    bsm_->hold_inputs(seen.time);
+    mujoco_->hold_inputs(seen.time);
     Eigen::VectorXd rate(x.size());
-    bsm_->derivative(state.time, view(x), {rate.data(), static_cast<std::size_t>(rate.size())});
+    bsm_->derivative(seen.time, view(x), {rate.data(), static_cast<std::size_t>(rate.size())});
     const Eigen::MatrixXd M = bsm_->mass_matrix(view(x));
     const Eigen::VectorXd off = acceleration_rounding(mujoco_->rounding_terms(view(y)), M,
                                                       accelerations_of(rate, bsm_->layout()));

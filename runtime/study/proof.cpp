@@ -41,7 +41,7 @@ struct Answer {
 
 Answer ask(Engine& engine, const RandomState& state) {
   const StateLayout& layout = engine.layout();
-  const VectorXd y = state_vector(state, layout);
+  const VectorXd y = pack(state, layout);
   VectorXd rate(layout.size());
   const std::span<const double> view(y.data(), static_cast<std::size_t>(y.size()));
   engine.hold_inputs(state.time);
@@ -101,7 +101,7 @@ void compare_mass_properties(const Answer& a, const Answer& b, ProofReport& repo
 
 /// Both engines must show the very coordinates the state was made of, in the model's order.
 double mapping_difference(Engine& engine, const RandomState& state) {
-  const VectorXd y = state_vector(state, engine.layout());
+  const VectorXd y = pack(state, engine.layout());
   engine.hold_inputs(state.time);
   const Observation seen =
       engine.observe(state.time, {y.data(), static_cast<std::size_t>(y.size())});

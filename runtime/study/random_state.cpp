@@ -3,6 +3,8 @@
 
 #include <random>
 
+#include "runtime/engine/state.h"
+
 namespace twincraft {
 namespace {
 
@@ -54,15 +56,9 @@ RandomState draw_state(const Model& model, Draw& draw) {
 }  // namespace
 
 RandomState undisturbed(const Model& model) {
-  const InitialState& start = model.initial;
-  return {0.0,
-          start.r_BN_N,
-          start.v_BN_N,
-          Quaterniond::Identity(),
-          start.omega_BN_B,
-          start.joint_position,
-          start.joint_rate,
-          start.rotor_speed};
+  RandomState state{model.initial};
+  state.q_BN = Quaterniond::Identity();
+  return state;
 }
 
 std::vector<RandomState> random_states(const Model& model, int count) {
@@ -70,23 +66,6 @@ std::vector<RandomState> random_states(const Model& model, int count) {
   std::vector<RandomState> states;
   for (int i = 0; i < count; ++i) states.push_back(draw_state(model, draw));
   return states;
-}
-
-Eigen::VectorXd state_vector(const RandomState& state, const StateLayout& layout) {
-  Eigen::VectorXd y(layout.size());
-  y.segment<3>(StateLayout::position()) = state.r_BN_N;
-  y.segment<3>(StateLayout::velocity()) = state.v_BN_N;
-  const Quaterniond& q = state.q_BN;
-  if (layout.attitude_size() == 3) y.segment<3>(StateLayout::attitude()) = q.vec() / (1.0 + q.w());
-  if (layout.attitude_size() == 4) y.segment<4>(StateLayout::attitude()) << q.w(), q.vec();
-  if (layout.rate_size() > 0) y.segment<3>(layout.rate()) = state.omega_BN_B;
-  for (std::size_t i = 0; i < state.joint_position.size(); ++i) {
-    y[layout.joint() + static_cast<int>(i)] = state.joint_position[i];
-    y[layout.joint_rate() + static_cast<int>(i)] = state.joint_rate[i];
-  }
-  for (std::size_t i = 0; i < state.wheel_rate.size(); ++i)
-    y[layout.wheel() + static_cast<int>(i)] = state.wheel_rate[i];
-  return y;
 }
 
 Eigen::VectorXd accelerations_of(const Eigen::VectorXd& rate, const StateLayout& layout) {

@@ -6,16 +6,15 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "runtime/engine/state.h"
+#include "compiler/ir/model.h"
 
 namespace twincraft {
 
-struct RandomState {
+struct StateLayout;
+
+/// The scalar of q_BN is not negative.
+struct RandomState : VehicleState {
   double time = 0.0;  // [s] whose inputs are held
-  Vector3d r_BN_N, v_BN_N;
-  Quaterniond q_BN;  // scalar not negative
-  Vector3d omega_BN_B;
-  std::vector<double> joint_position, joint_rate, wheel_rate;
 };
 
 /// Random attitudes, rates about 0.1 rad/s, hinges about 0.5 rad and slides about 0.05 m off their
@@ -25,9 +24,6 @@ std::vector<RandomState> random_states(const Model& model, int count);
 
 /// The start of the run itself, turned so that B and N agree.
 RandomState undisturbed(const Model& model);
-
-/// `state` as the entries of a state vector.
-Eigen::VectorXd state_vector(const RandomState& state, const StateLayout& layout);
 
 /// Of a state's derivative, what belongs to (v_B in N, omega in B, joint rates, wheel rates).
 Eigen::VectorXd accelerations_of(const Eigen::VectorXd& rate, const StateLayout& layout);

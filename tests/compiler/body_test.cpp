@@ -55,7 +55,7 @@ TEST(Body, TurnsOnARevoluteJoint) {
   EXPECT_EQ(joint.rest, 10.0 * kDegree);
   EXPECT_EQ(joint.effort.at(0.5), 0.0);
   EXPECT_EQ(joint.effort.at(1.0), 0.5);
-  const InitialState& state = trial.model->initial;
+  const VehicleState& state = trial.model->initial;
   const LinkMotion link =
       configuration(trial.model->assembly, state.joint_position, state.joint_rate).at(1);
   // First a quarter about z, then one about the body's own y, which lies along -x.

@@ -65,7 +65,7 @@ TEST(Initial, PlacesTheHubSoThatTheSystemCentreIsWhereItWasNamed) {
   const Trial trial(brick_with(std::string(kPanels) + "initial: {rate: [0.01, -0.02, 0.015]}\n"));
   ASSERT_TRUE(trial.model);
   const double c = 0.03564200414018731;  // published height of the system centre above B
-  const InitialState& state = trial.model->initial;
+  const VehicleState& state = trial.model->initial;
   EXPECT_LT((state.r_BN_N - Vector3d(0.0, 0.0, -c)).norm(), 1.0e-15);
   EXPECT_LT((state.v_BN_N - Vector3d(0.02 * c, 0.01 * c, 0.0)).norm(), 1.0e-17);
 }
@@ -114,7 +114,7 @@ TEST(Attitude, FollowsTheDirectionsOfTheOrbit) {
                                          ", attitude: {align: [{axis: z, to: velocity}, {axis: y, "
                                          "to: orbit_normal}]}}\n")));
   ASSERT_TRUE(trial.model);
-  const InitialState& state = trial.model->initial;
+  const VehicleState& state = trial.model->initial;
   const Vector3d h = state.r_BN_N.cross(state.v_BN_N).normalized();
   EXPECT_LT((state.q_BN * Vector3d::UnitZ() - state.v_BN_N.normalized()).norm(), 1.0e-15);
   EXPECT_LT((state.q_BN * Vector3d::UnitY() - h).norm(), 1.0e-15);

@@ -176,7 +176,7 @@ TEST(ModelBuilder, KeepsInitialValuesAtTheirCoordinates) {
   const Model model = boom_and_wheels().build();
   EXPECT_EQ(model.initial.joint_position, (std::vector<double>{0.2, 0.05}));
   EXPECT_EQ(model.initial.joint_rate, (std::vector<double>{-0.01, 0.0}));
-  EXPECT_EQ(model.initial.rotor_speed, (std::vector<double>{100.0, -50.0}));
+  EXPECT_EQ(model.initial.wheel_rate, (std::vector<double>{100.0, -50.0}));
   EXPECT_EQ(model.degrees_of_freedom(), 10);
 }
 

@@ -56,7 +56,7 @@ TEST(Panel, DividesIntoThePublishedSegments) {
 TEST(Panel, TurnsByTheRightHandAboutItsAxis) {
   const Trial trial(wing("    inertia: {shape: bar}\n    angle: 90 deg\n"));
   ASSERT_TRUE(trial.model);
-  const InitialState& state = trial.model->initial;
+  const VehicleState& state = trial.model->initial;
   const LinkMotion link =
       configuration(trial.model->assembly, state.joint_position, state.joint_rate).at(1);
   // Outboard +x turns about -y towards +z.

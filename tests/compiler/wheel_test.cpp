@@ -59,7 +59,7 @@ TEST(Wheel, WithMassIsAMassAtItsPosition) {
 TEST(Wheel, StartsAtItsSpeedAndCarriesItsTorque) {
   const Trial trial(wheel("axis: [0, 0, 1], speed: 60 rpm, torque: [[10 s, 0.2]]"));
   ASSERT_TRUE(trial.model);
-  EXPECT_NEAR(trial.model->initial.rotor_speed.at(0), 6.283185307179586, 1.0e-14);
+  EXPECT_NEAR(trial.model->initial.wheel_rate.at(0), 6.283185307179586, 1.0e-14);
   const Coordinate& coordinate = trial.model->coordinates.at(0);
   EXPECT_EQ(coordinate.name, "rw");
   EXPECT_EQ(coordinate.kind, Coordinate::Kind::kWheel);

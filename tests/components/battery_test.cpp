@@ -38,7 +38,7 @@ std::span<const double> span_of(const Eigen::VectorXd& v) {
 /// v_B, omega, joint rates and wheel rates differentiated, whatever the attitude chart.
 Eigen::VectorXd accelerations(Engine& engine, const RandomState& state) {
   const StateLayout& at = engine.layout();
-  const Eigen::VectorXd x = state_vector(state, at);
+  const Eigen::VectorXd x = pack(state, at);
   Eigen::VectorXd rate(x.size());
   engine.hold_inputs(state.time);
   engine.derivative(state.time, span_of(x), {rate.data(), static_cast<std::size_t>(rate.size())});
@@ -99,9 +99,9 @@ TEST_P(Battery, GivesTheSameAccelerationsInBothEngines) {
 
 TEST_P(Battery, KeepsTheHubMatrixSymmetricPositiveDefinite) {
   for (const RandomState& state : random_states(bundle_.model, 20)) {
-    const Eigen::VectorXd x = state_vector(state, bsm_->layout());
+    const Eigen::VectorXd x = pack(state, bsm_->layout());
     const Eigen::MatrixXd M = bsm_->mass_matrix(span_of(x));
-    const Eigen::VectorXd y = state_vector(state, mujoco_->layout());
+    const Eigen::VectorXd y = pack(state, mujoco_->layout());
     EXPECT_LT((M - mujoco_->mass_matrix(span_of(y))).norm(), 1e-12 * M.norm());
     EXPECT_LT((M - M.transpose()).norm(), 1e-14 * M.norm());
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(M);

@@ -37,7 +37,7 @@ std::vector<std::unique_ptr<Engine>> both_engines(const Bundle& bundle) {
 }
 
 Eigen::VectorXd derivative(Engine& engine, const RandomState& state) {
-  const Eigen::VectorXd x = state_vector(state, engine.layout());
+  const Eigen::VectorXd x = pack(state, engine.layout());
   Eigen::VectorXd rate(x.size());
   const auto size = static_cast<std::size_t>(x.size());
   engine.derivative(state.time, {x.data(), size}, {rate.data(), size});

@@ -281,7 +281,7 @@ Momenta momenta(Engine& engine, double time, const Eigen::VectorXd& x) {
 
 /// How fast momenta change along the motion: central differences of fourth order.
 Momenta momenta_rate(Engine& engine, const RandomState& state) {
-  const Eigen::VectorXd x = state_vector(state, engine.layout());
+  const Eigen::VectorXd x = pack(state, engine.layout());
   const Eigen::VectorXd rate = derivative(engine, state.time, x);
   constexpr double h = 2e-3;
   const auto difference = [&](double d) -> Momenta {
@@ -373,7 +373,7 @@ TEST(Jet, PushesEveryBodyByItsShareOfTheStream) {
   for (std::size_t i = 0; i < with.size(); ++i) {
     for (const RandomState& state : burning_states(jet.model)) {
       const StateLayout& layout = with[i]->layout();
-      const Eigen::VectorXd x = state_vector(state, layout);
+      const Eigen::VectorXd x = pack(state, layout);
       with[i]->hold_inputs(state.time);
       without[i]->hold_inputs(state.time);
       const Eigen::VectorXd change =

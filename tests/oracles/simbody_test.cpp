@@ -12,7 +12,7 @@ namespace twincraft {
 namespace {
 
 Eigen::VectorXd accelerations(Engine& engine, const RandomState& state) {
-  const Eigen::VectorXd y = state_vector(state, engine.layout());
+  const Eigen::VectorXd y = pack(state, engine.layout());
   Eigen::VectorXd rate(y.size());
   engine.hold_inputs(state.time);
   const auto size = static_cast<std::size_t>(y.size());

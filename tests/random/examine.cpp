@@ -149,7 +149,7 @@ class Examination {
   }
 
   static Eigen::VectorXd accelerations(Engine& engine, const RandomState& state) {
-    const Eigen::VectorXd y = state_vector(state, engine.layout());
+    const Eigen::VectorXd y = pack(state, engine.layout());
     Eigen::VectorXd rate(y.size());
     const auto size = static_cast<std::size_t>(y.size());
     engine.hold_inputs(state.time);

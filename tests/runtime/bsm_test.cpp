@@ -5,10 +5,10 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
-#include "runtime/bsm/attitude.h"
 #include "runtime/bsm/charts.h"
 #include "runtime/bsm/engine.h"
 #include "runtime/bsm/motion.h"
+#include "runtime/engine/attitude.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/support/kernel_of.h"
 
@@ -245,7 +245,7 @@ TEST(BsmEngine, TakesNothingFromTheHeapInADerivative) {
   model.initial.r_BN_N = {7.0e6, 0.0, 0.0};
   model.initial.joint_position = state.q;
   model.initial.joint_rate = state.q_dot;
-  model.initial.rotor_speed = state.rotor_speed;
+  model.initial.wheel_rate = state.rotor_speed;
   const auto engine = make_bsm_engine(model);
   Eigen::VectorXd x = engine->initial_state(), rate(x.size());
   const std::span<double> state_span(x.data(), static_cast<std::size_t>(x.size()));
@@ -395,10 +395,10 @@ TEST(Charts, TurnTheSameWay) {
     const Vector3d r = test::random_vector(random, 1.0);
     const Quaterniond q = Quaterniond(r.norm() - 0.7, r.x(), r.y(), r.z()).normalized();
     const Matrix3d expected = q.toRotationMatrix();
-    const Vector3d sigma = bsm::mrp_from(q);
+    const Vector3d sigma = mrp_from(q);
     EXPECT_LE(sigma.norm(), 1.0 + 1e-15);
     EXPECT_LT((dcm_at<Mrp>(sigma) - expected).norm(), 1e-14);
-    EXPECT_LT((bsm::quaternion_from(sigma).toRotationMatrix() - expected).norm(), 1e-14);
+    EXPECT_LT((quaternion_from(sigma).toRotationMatrix() - expected).norm(), 1e-14);
     Vector3d outside = -sigma / sigma.squaredNorm();
     Mrp shadow = chart_at<Mrp>(outside);
     shadow.make_regular();
@@ -428,7 +428,7 @@ TEST(Charts, MoveAsTheRateSays) {
   const Vector3d omega(0.3, -0.2, 0.5);
   const Quaterniond q = Quaterniond(0.9, 0.1, -0.3, 0.2).normalized();
   const Matrix3d expected = q.toRotationMatrix() * tilde(omega);
-  EXPECT_LT((dcm_rate<Mrp>(bsm::mrp_from(q), omega, 1e-6) - expected).norm(), 1e-9);
+  EXPECT_LT((dcm_rate<Mrp>(mrp_from(q), omega, 1e-6) - expected).norm(), 1e-9);
   EXPECT_LT((dcm_rate<Quaternion>(numbers_of(q), omega, 1e-6) - expected).norm(), 1e-9);
 }
 
@@ -444,7 +444,7 @@ Model random_model(std::mt19937_64& random, AttitudeChart chart) {
   model.initial.omega_BN_B = state.omega_BN_B;
   model.initial.joint_position = state.q;
   model.initial.joint_rate = state.q_dot;
-  model.initial.rotor_speed = state.rotor_speed;
+  model.initial.wheel_rate = state.rotor_speed;
   Load load{"push", 2, {}, {}, Vector3d(0.1, 0.2, 0.3)};
   load.force_L[1] = Schedule::constant(3.0);
   load.torque_L[2] = Schedule::constant(-2.0);

@@ -89,7 +89,7 @@ TEST(Mjcf, StartsWhereTheSpecDoes) {
     EXPECT_EQ(m->key_qvel[map.joint_dof[i]], model.initial.joint_rate[i]);
   }
   for (std::size_t i = 0; i < map.wheel_dof.size(); ++i) {
-    EXPECT_EQ(m->key_qvel[map.wheel_dof[i]], model.initial.rotor_speed[i]);
+    EXPECT_EQ(m->key_qvel[map.wheel_dof[i]], model.initial.wheel_rate[i]);
   }
   const int position = mj_name2id(m.get(), mjOBJ_NUMERIC, "hub_position");
   ASSERT_GE(position, 0);

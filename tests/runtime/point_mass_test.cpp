@@ -32,7 +32,7 @@ Bundle compiled(const std::vector<std::string>& overrides = {}) {
 }
 
 Eigen::VectorXd acceleration(Engine& engine, const RandomState& state) {
-  const Eigen::VectorXd x = state_vector(state, engine.layout());
+  const Eigen::VectorXd x = pack(state, engine.layout());
   Eigen::VectorXd rate(x.size());
   const auto size = static_cast<std::size_t>(x.size());
   engine.hold_inputs(state.time);

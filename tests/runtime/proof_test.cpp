@@ -252,7 +252,7 @@ TEST(Proof, FindsAnInputThatIsAppliedAtTheWrongTime) {
 TEST(Proof, FindsACoordinateTooMany) {
   const ProofReport report = against(scheduled(test::wheels_and_panels()), [](Model& model) {
     model.assembly.rotors.pop_back();
-    model.initial.rotor_speed.pop_back();
+    model.initial.wheel_rate.pop_back();
   });
   EXPECT_THAT(failing(report), testing::ElementsAre("coordinate count"));
 }
@@ -284,8 +284,8 @@ TEST(RandomStates, AreTheSameEverywhere) {
 
 TEST(RandomStates, AreOneAttitudeInEitherChart) {
   const RandomState state = random_states(scheduled(test::offset_hub()), 1).front();
-  const Eigen::VectorXd mrp = state_vector(state, {AttitudeChart::kMrp, 0, 0});
-  const Eigen::VectorXd quaternion = state_vector(state, {AttitudeChart::kQuaternion, 0, 0});
+  const Eigen::VectorXd mrp = pack(state, {AttitudeChart::kMrp, 0, 0});
+  const Eigen::VectorXd quaternion = pack(state, {AttitudeChart::kQuaternion, 0, 0});
   const Vector3d sigma = mrp.segment<3>(6);
   const double square = sigma.squaredNorm();
   EXPECT_NEAR(quaternion[6], (1.0 - square) / (1.0 + square), 1.0e-15);

@@ -27,24 +27,7 @@ class ToyEngine : public Engine {
   std::string_view name() const override { return "toy"; }
   const StateLayout& layout() const override { return layout_; }
 
-  Eigen::VectorXd initial_state() const override {
-    const InitialState& initial = model_.initial;
-    Eigen::VectorXd state = Eigen::VectorXd::Zero(layout_.size());
-    state.segment<3>(0) = initial.r_BN_N;
-    state.segment<3>(3) = initial.v_BN_N;
-    const Quaterniond& q = initial.q_BN;
-    if (layout_.chart == AttitudeChart::kMrp)
-      state.segment<3>(6) = q.vec() / (1.0 + q.w());
-    else
-      state.segment<4>(6) << q.w(), q.vec();
-    state.segment<3>(layout_.rate()) = initial.omega_BN_B;
-    for (int joint = 0; joint < layout_.joints; ++joint) {
-      const auto j = static_cast<std::size_t>(joint);
-      state[layout_.joint() + joint] = initial.joint_position[j];
-      state[layout_.joint_rate() + joint] = initial.joint_rate[j];
-    }
-    return state;
-  }
+  Eigen::VectorXd initial_state() const override { return pack(model_.initial, layout_); }
 
   void hold_inputs(double time) override {
     held_at.push_back(time);

@@ -102,7 +102,7 @@ void SampleVehicle::add_wheel(const std::string& name, int link, const Vector3d&
   model_.tree.bodies.push_back(wheel);
   model_.tree.wheels.push_back({name, static_cast<int>(model_.assembly.rotors.size())});
   model_.assembly.rotors.push_back({name, link, axis_L, spin, Schedule::constant(torque)});
-  model_.initial.rotor_speed.push_back(speed);
+  model_.initial.wheel_rate.push_back(speed);
 }
 
 Model offset_hub() {

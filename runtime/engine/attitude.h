@@ -5,7 +5,7 @@
 
 #include "compiler/ir/mass.h"
 
-namespace twincraft::bsm {
+namespace twincraft {
 
 /// sigma_BN of a rotation, inside the unit ball.
 inline Vector3d mrp_from(const Quaterniond& q_BN) {
@@ -19,4 +19,4 @@ inline Quaterniond quaternion_from(const Vector3d& sigma_BN) {
   return {(1.0 - s2) / (1.0 + s2), vec.x(), vec.y(), vec.z()};
 }
 
-}  // namespace twincraft::bsm
+}  // namespace twincraft
