@@ -31,7 +31,7 @@ std::vector<std::string> flags_of(const CLI::App& app) {
 /// What CLI11 could not place: an unknown flag or one argument too many.
 Fault unexpected(const CLI::App& app, const std::vector<std::string>& extras) {
   const auto flag = std::find_if(extras.begin(), extras.end(),
-                                 [](const std::string& text) { return text.starts_with("-"); });
+                                 [](const std::string& text) { return text.starts_with('-'); });
   if (flag == extras.end())
     return {fmt::format("unexpected argument {}", in_backticks(extras.front())),
             fmt::format("`{} --help` shows the usage", app.get_name())};

@@ -46,11 +46,11 @@ void write(const Json& value, const std::string& indent, std::string& out) {
     write_entries(value, inner, out);
     return;
   }
-  out += "\n";
+  out += '\n';
   for (const Json& item : value) {
     out += inner + "-";
     if (item.is_object() && !item.empty()) {
-      out += " ";
+      out += ' ';
       write_entries(item, inner + "  ", out);
     } else {
       write(item, inner + "  ", out);

@@ -211,7 +211,7 @@ int compile_and_simulate(const Options& options) {
 
 /// A word before all flags that is nearly a command and no file.
 bool is_misspelt_command(const std::string& word) {
-  return !word.starts_with("-") && !nearest(word, {kAttribute}).empty() &&
+  return !word.starts_with('-') && !nearest(word, {kAttribute}).empty() &&
          !std::filesystem::exists(word);
 }
 

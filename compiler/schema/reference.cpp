@@ -100,7 +100,7 @@ std::string reference_text(const TableInfo& root) {
   collect(root, tables);
   std::string text;
   for (const TableInfo* table : tables) {
-    if (!text.empty()) text += "\n";
+    if (!text.empty()) text += '\n';
     text += section_of(*table);
     if (table == &root) text += fmt::format("\n{}", kValues.substr(0, kValues.size() - 1));
   }

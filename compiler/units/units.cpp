@@ -79,8 +79,8 @@ std::optional<double> nearest_double(const NumberText& number, int shift) {
   if (number.mantissa.find_first_of("123456789") == std::string_view::npos) return 0.0;
   int exponent = 0;
   if (!number.exponent.empty()) {
-    const char* end = number.exponent.data() + number.exponent.size();
-    const auto result = std::from_chars(number.exponent.data(), end, exponent);
+    const std::string_view digits = number.exponent;
+    const auto result = std::from_chars(digits.data(), digits.data() + digits.size(), exponent);
     if (result.ec != std::errc() || std::abs(exponent) > 1'000'000) return std::nullopt;
   }
   const std::string text = fmt::format("{}e{}", number.mantissa, exponent + shift);

@@ -49,7 +49,7 @@ void add_probes(const Stretch& stretch, double step, double budget, std::vector<
       probes.push_back(at);
   const double later = std::min<double>(kLaterInstants, budget - static_cast<double>(first));
   const double begin = stretch.begin + kFirstSteps[first - 1] * step;
-  for (double i = 1.0; i <= later; i += 1.0)
+  for (int i = 1; i <= later; ++i)
     if (const double at = begin + (stretch.end - begin) * i / (later + 1.0);
         at < stretch.end - 0.5 * step)
       probes.push_back(at);

@@ -42,7 +42,7 @@ void* allocate(std::size_t size) {
   std::size_t space = size + kAlignment;
   void** given = static_cast<void**>(std::align(kAlignment, size, room, space));
   given[-1] = taken;
-  return given;
+  return static_cast<void*>(given);
 }
 
 void release(void* given) {
