@@ -27,14 +27,28 @@ if(TWINCRAFT_FUZZ)
   target_link_options(sc_options INTERFACE -fsanitize=address,undefined)
 endif()
 
-# A build that was done before is not done again.
+# A build that was done before is not done again. ccache takes precompiled headers only when told that
+# neither __TIME__ nor macros of the command line hide in them, which is so; the options that let it
+# look through them are harmless without it.
 find_program(CCACHE_PROGRAM ccache)
 if(CCACHE_PROGRAM AND NOT DEFINED CMAKE_CXX_COMPILER_LAUNCHER)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env
+      CCACHE_SLOPPINESS=pch_defines,time_macros ${CCACHE_PROGRAM})
 endif()
+target_compile_options(sc_options INTERFACE
+  $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>
+  "$<$<CXX_COMPILER_ID:Clang>:SHELL:-Xclang -fno-pch-timestamp>")
 
 # A room: a static library of ours. sc_room(NAME sources... ) then target_link_libraries.
 function(sc_room name)
   add_library(${name} STATIC ${ARGN})
   target_link_libraries(${name} PUBLIC sc_options)
+  target_precompile_headers(${name} REUSE_FROM sc_precompiled)
+endfunction()
+
+# A program of ours: sc_program(NAME sources... ) then target_link_libraries.
+function(sc_program name)
+  add_executable(${name} ${ARGN})
+  target_link_libraries(${name} PRIVATE sc_options)
+  target_precompile_headers(${name} REUSE_FROM sc_precompiled)
 endfunction()
