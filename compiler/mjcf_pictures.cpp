@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compiler/ir/rotation.h"
+
 namespace twincraft {
 namespace {
 
@@ -39,8 +41,7 @@ const TreeWheel* wheel_of(const Model& model, const TreeBody& body) {
 std::vector<Picture> wheel_pictures(const Model& model, const TreeBody& wheel,
                                     const Vector3d& middle) {
   const double radius = 0.25 * hub_size(model), half_height = 0.2 * radius;
-  const Quaterniond along =
-      Quaterniond::FromTwoVectors(Vector3d::UnitZ(), wheel.joints.front().axis);
+  const Quaterniond along = shortest_rotation(Vector3d::UnitZ(), wheel.joints.front().axis);
   return {{"cylinder", {radius, half_height}, middle, along, "wheel", wheel.name},
           {"box",
            {0.85 * radius, 0.08 * radius, 1.12 * half_height},
@@ -73,7 +74,7 @@ std::vector<Picture> slosh_pictures(const Model& model, const TreeBody& body) {
     pictures.push_back({"cylinder",
                         {0.06 * radius, arm.norm() / 2.0},
                         arm / 2.0,
-                        Quaterniond::FromTwoVectors(Vector3d::UnitZ(), arm),
+                        shortest_rotation(Vector3d::UnitZ(), arm),
                         "slosh"});
   return pictures;
 }

@@ -3,10 +3,10 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/SVD>
 #include <cmath>
 
 #include "compiler/ir/number.h"
+#include "compiler/ir/rotation.h"
 
 namespace twincraft {
 namespace {
@@ -88,11 +88,6 @@ Matrix3d triad(const Vector3d& first, const Vector3d& second) {
 
 bool parallel(const Vector3d& a, const Vector3d& b) {
   return a.normalized().cross(b.normalized()).norm() < kParallelTolerance;
-}
-
-Matrix3d nearest_rotation(const Matrix3d& m) {
-  const Eigen::JacobiSVD<Matrix3d> svd(m, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  return svd.matrixU() * svd.matrixV().transpose();
 }
 
 Quaterniond from_mrp(const Vector3d& sigma) {

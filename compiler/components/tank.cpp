@@ -7,6 +7,7 @@
 
 #include "compiler/components/physical.h"
 #include "compiler/ir/number.h"
+#include "compiler/ir/rotation.h"
 
 namespace twincraft {
 namespace {
@@ -75,7 +76,7 @@ Look look_of(const TankShapeSpec& shape) {
   } else if (shape.cylinder) {
     look.form = Look::Form::kCylinder;
     look.half = Vector3d(shape.cylinder->radius, shape.cylinder->length / 2.0, 0.0);
-    look.quat = Quaterniond::FromTwoVectors(Vector3d::UnitZ(), shape.cylinder->axis);
+    look.quat = shortest_rotation(Vector3d::UnitZ(), shape.cylinder->axis);
   }
   return look;
 }

@@ -31,21 +31,21 @@ Kind<std::vector<V>> list_of(Kind<V> item, std::size_t minimum, std::size_t maxi
   return {
       .text = "list of " + item.text,
       .schema = list_schema(item.schema, minimum, maximum),
-      .read = [item, minimum, maximum](const Node& node,
-                                       ReadContext& context) -> std::optional<std::vector<V>> {
+      .read = [read = item.read, minimum, maximum](
+                  const Node& node, ReadContext& context) -> std::optional<std::vector<V>> {
         if (!check_list(node, context, minimum, maximum, "a list")) return std::nullopt;
         std::vector<V> values;
         for (std::size_t i = 0; i < node.items.size(); ++i) {
           ReadContext at_item = item_of(context, i);
-          std::optional<V> value = item.read(node.items[i], at_item);
+          std::optional<V> value = read(node.items[i], at_item);
           if (value) values.push_back(std::move(*value));
         }
         if (values.size() != node.items.size()) return std::nullopt;
         return values;
       },
-      .write = [item](const std::vector<V>& values) -> Json {
+      .write = [write = item.write](const std::vector<V>& values) -> Json {
         Json list = Json::array();
-        for (const V& value : values) list.push_back(item.write(value));
+        for (const V& value : values) list.push_back(write(value));
         return list;
       },
       .tables = item.tables,
@@ -58,15 +58,15 @@ Kind<std::vector<V>> one_or_list(Kind<V> item) {
   return {
       .text = item.text + ", or a list of them",
       .schema = any_of(item.schema, list.schema),
-      .read = [item, list](const Node& node,
-                           ReadContext& context) -> std::optional<std::vector<V>> {
-        if (node.is_list()) return list.read(node, context);
-        std::optional<V> value = item.read(node, context);
+      .read = [read = item.read, read_list = list.read](
+                  const Node& node, ReadContext& context) -> std::optional<std::vector<V>> {
+        if (node.is_list()) return read_list(node, context);
+        std::optional<V> value = read(node, context);
         if (!value) return std::nullopt;
         return std::vector<V>{std::move(*value)};
       },
-      .write = [item, list](const std::vector<V>& values) -> Json {
-        return values.size() == 1 ? item.write(values.front()) : list.write(values);
+      .write = [write = item.write, write_list = list.write](const std::vector<V>& values) -> Json {
+        return values.size() == 1 ? write(values.front()) : write_list(values);
       },
       .tables = item.tables,
   };
@@ -77,13 +77,14 @@ Kind<std::optional<V>> maybe(Kind<V> kind) {
   return {
       .text = kind.text,
       .schema = kind.schema,
-      .read = [kind](const Node& node, ReadContext& context) -> std::optional<std::optional<V>> {
-        std::optional<V> value = kind.read(node, context);
+      .read = [read = kind.read](const Node& node,
+                                 ReadContext& context) -> std::optional<std::optional<V>> {
+        std::optional<V> value = read(node, context);
         if (!value) return std::nullopt;
         return std::optional<std::optional<V>>(std::in_place, std::move(value));
       },
-      .write = [kind](const std::optional<V>& value) -> Json {
-        return value ? kind.write(*value) : Json(nullptr);
+      .write = [write = kind.write](const std::optional<V>& value) -> Json {
+        return value ? write(*value) : Json(nullptr);
       },
       .tables = kind.tables,
   };
@@ -96,20 +97,21 @@ Kind<std::variant<A, B>> either(std::function<bool(const Node&)> suits, Kind<A> 
   return {
       .text = first.text + ", or " + second.text,
       .schema = any_of(first.schema, second.schema),
-      .read = [suits, first, second](const Node& node,
-                                     ReadContext& context) -> std::optional<Value> {
+      .read = [suits, read_first = first.read, read_second = second.read](
+                  const Node& node, ReadContext& context) -> std::optional<Value> {
         if (suits(node)) {
-          std::optional<A> value = first.read(node, context);
+          std::optional<A> value = read_first(node, context);
           if (!value) return std::nullopt;
           return Value(std::in_place_index<0>, std::move(*value));
         }
-        std::optional<B> value = second.read(node, context);
+        std::optional<B> value = read_second(node, context);
         if (!value) return std::nullopt;
         return Value(std::in_place_index<1>, std::move(*value));
       },
-      .write = [first, second](const Value& value) -> Json {
-        return value.index() == 0 ? first.write(std::get<0>(value))
-                                  : second.write(std::get<1>(value));
+      .write = [write_first = first.write,
+                write_second = second.write](const Value& value) -> Json {
+        return value.index() == 0 ? write_first(std::get<0>(value))
+                                  : write_second(std::get<1>(value));
       },
       .tables = joined(first.tables, second.tables),
   };
@@ -121,12 +123,12 @@ Kind<std::invoke_result_t<From, V>> map(Kind<V> kind, From from, To to) {
   return {
       .text = kind.text,
       .schema = kind.schema,
-      .read = [kind, from](const Node& node, ReadContext& context) -> std::optional<W> {
-        std::optional<V> value = kind.read(node, context);
+      .read = [read = kind.read, from](const Node& node, ReadContext& context) -> std::optional<W> {
+        std::optional<V> value = read(node, context);
         if (!value) return std::nullopt;
         return from(std::move(*value));
       },
-      .write = [kind, to](const W& value) -> Json { return kind.write(to(value)); },
+      .write = [write = kind.write, to](const W& value) -> Json { return write(to(value)); },
       .tables = kind.tables,
   };
 }

@@ -37,23 +37,12 @@ Json with_description(Json schema, std::string_view text) {
 
 /// The keys of `{value: [..], unit: mm}`.
 const TableInfo& listing_table() {
-  static const TableInfo table{.name = "vector",
-                               .doc = "A list of plain numbers and the unit of all of them.",
-                               .fields = {{.key = "value",
-                                           .doc = "plain numbers",
-                                           .kind = "list of numbers",
-                                           .required = true,
-                                           .schema = {},
-                                           .default_value = {},
-                                           .tables = {}},
-                                          {.key = "unit",
-                                           .doc = "unit of every number",
-                                           .kind = "unit, such as mm",
-                                           .required = true,
-                                           .schema = {},
-                                           .default_value = {},
-                                           .tables = {}}},
-                               .groups = {}};
+  static const TableInfo table{
+      .name = "vector",
+      .doc = "A list of plain numbers and the unit of all of them.",
+      .fields = {required_field("value", "plain numbers", "list of numbers", {}, {}),
+                 required_field("unit", "unit of every number", "unit, such as mm", {}, {})},
+      .groups = {}};
   return table;
 }
 

@@ -129,6 +129,18 @@ Json field_schema(const FieldInfo& field) {
   return schema;
 }
 
+/// Take out the defaults whose key excludes one that is there.
+void leave_out_excluded(const TableInfo& info, Json& written) {
+  const auto is_written = [&](const std::string& key) { return written.contains(key); };
+  for (const KeyGroup& group : info.groups) {
+    if (std::count_if(group.keys.begin(), group.keys.end(), is_written) < 2) continue;
+    for (const std::string& key : group.keys) {
+      const FieldInfo& field = *find_field(info, key);
+      if (is_written(key) && field.default_value == written[key]) written.erase(key);
+    }
+  }
+}
+
 /// The map's own `name`, when it can be shown.
 std::string own_name(const Node& map) {
   const Node* name = map.find("name");
@@ -136,6 +148,30 @@ std::string own_name(const Node& map) {
 }
 
 }  // namespace
+
+FieldInfo::FieldInfo() = default;
+FieldInfo::FieldInfo(const FieldInfo&) = default;
+FieldInfo::FieldInfo(FieldInfo&&) noexcept = default;
+FieldInfo& FieldInfo::operator=(const FieldInfo&) = default;
+FieldInfo& FieldInfo::operator=(FieldInfo&&) noexcept = default;
+FieldInfo::~FieldInfo() = default;
+
+FieldInfo required_field(std::string key, std::string doc, std::string kind, Json schema,
+                         std::vector<const TableInfo*> tables) {
+  FieldInfo field;
+  field.key = std::move(key);
+  field.doc = std::move(doc);
+  field.kind = std::move(kind);
+  field.required = true;
+  field.schema = std::move(schema);
+  field.tables = std::move(tables);
+  return field;
+}
+
+void make_optional(FieldInfo& field, Json default_value) {
+  field.required = false;
+  if (!is_nothing(default_value)) field.default_value = std::move(default_value);
+}
 
 Span Written::span() const { return node == nullptr ? Span{} : node->span; }
 
@@ -186,15 +222,14 @@ void add_group(TableInfo& info, KeyGroup group) {
   info.groups.push_back(std::move(group));
 }
 
-void leave_out_excluded(const TableInfo& info, Json& written) {
-  const auto is_written = [&](const std::string& key) { return written.contains(key); };
-  for (const KeyGroup& group : info.groups) {
-    if (std::count_if(group.keys.begin(), group.keys.end(), is_written) < 2) continue;
-    for (const std::string& key : group.keys) {
-      const FieldInfo& field = *find_field(info, key);
-      if (is_written(key) && field.default_value == written[key]) written.erase(key);
-    }
+Json written_map(const TableInfo& info, std::vector<Json> values) {
+  Json map = Json::object();
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const FieldInfo& field = info.fields[i];
+    if (field.required || !is_nothing(values[i])) map[field.key] = std::move(values[i]);
   }
+  leave_out_excluded(info, map);
+  return map;
 }
 
 Json schema_of(const TableInfo& info) {

@@ -29,8 +29,16 @@ struct Written {
   bool has(std::string_view key) const;
 };
 
-/// What the language says of one key, whatever member it fills.
+/// What the language says of one key, whatever member it fills. Every table copies some: copying
+/// and destroying them is compiled once.
 struct FieldInfo {
+  FieldInfo();
+  FieldInfo(const FieldInfo&);
+  FieldInfo(FieldInfo&&) noexcept;
+  FieldInfo& operator=(const FieldInfo&);
+  FieldInfo& operator=(FieldInfo&&) noexcept;
+  ~FieldInfo();
+
   std::string key;
   std::string doc;   // one or two sentences: meaning, and the default in words if it has no value
   std::string kind;  // Kind::text
@@ -117,12 +125,16 @@ bool check_keys(const TableInfo& info, const Node& map, const ReadContext& outer
 /// The context of the value of `key` in `map`.
 ReadContext field_context(const TableInfo& info, const std::string& key, const Node& map,
                           const ReadContext& outer);
+FieldInfo required_field(std::string key, std::string doc, std::string kind, Json schema,
+                         std::vector<const TableInfo*> tables);
+/// The field may be left out, which means `default_value` unless that is nothing.
+void make_optional(FieldInfo& field, Json default_value);
 /// Add a group; its keys must be fields that are not required by themselves.
 void add_group(TableInfo& info, KeyGroup group);
 Json schema_of(const TableInfo& info);
-/// Take defaults out of `written` whose key excludes one that is there: reading it again would
-/// find both.
-void leave_out_excluded(const TableInfo& info, Json& written);
+/// The map with these values of all fields, less what is nothing and the defaults whose key
+/// excludes one that is there: reading it again would find both.
+Json written_map(const TableInfo& info, std::vector<Json> values);
 /// Null, "", [] and {}: values that are left out.
 bool is_nothing(const Json& value);
 

@@ -6,29 +6,25 @@ namespace twincraft {
 
 template <class T, class V>
 Field<T> required(std::string key, V T::*member, Kind<V> kind, std::string doc) {
-  Field<T> field;
-  field.info = {.key = std::move(key),
-                .doc = std::move(doc),
-                .kind = kind.text,
-                .required = true,
-                .schema = kind.schema,
-                .default_value = std::nullopt,
-                .tables = kind.tables};
-  field.access.read = [member, kind](const Node& node, ReadContext& context, T& into) {
-    std::optional<V> value = kind.read(node, context);
+  FieldAccess<T> access;
+  access.read = [member, read = std::move(kind.read)](const Node& node, ReadContext& context,
+                                                      T& into) {
+    std::optional<V> value = read(node, context);
     if (value) into.*member = std::move(*value);
     return value.has_value();
   };
-  field.access.write = [member, kind](const T& from) { return kind.write(from.*member); };
-  return field;
+  access.write = [member, write = std::move(kind.write)](const T& from) {
+    return write(from.*member);
+  };
+  return {required_field(std::move(key), std::move(doc), std::move(kind.text),
+                         std::move(kind.schema), std::move(kind.tables)),
+          std::move(access)};
 }
 
 template <class T, class V>
 Field<T> optional(std::string key, V T::*member, Kind<V> kind, std::string doc) {
   Field<T> field = required(std::move(key), member, std::move(kind), std::move(doc));
-  field.info.required = false;
-  const Json value = field.access.write(T{});
-  if (!is_nothing(value)) field.info.default_value = value;
+  make_optional(field.info, field.access.write(T{}));
   return field;
 }
 
@@ -88,14 +84,9 @@ Json Table<T>::schema() const {
 
 template <class T>
 Json Table<T>::write(const T& value) const {
-  Json written = Json::object();
-  for (std::size_t i = 0; i < access_.size(); ++i) {
-    Json item = access_[i].write(value);
-    const FieldInfo& field = info_.fields[i];
-    if (field.required || !is_nothing(item)) written[field.key] = std::move(item);
-  }
-  leave_out_excluded(info_, written);
-  return written;
+  std::vector<Json> items;
+  for (const FieldAccess<T>& access : access_) items.push_back(access.write(value));
+  return written_map(info_, std::move(items));
 }
 
 template <class T>
