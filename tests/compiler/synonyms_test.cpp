@@ -15,14 +15,7 @@ const std::vector<std::string> kDirections{"velocity", "orbit_normal", "radial"}
 
 TableInfo table(std::string name, const std::vector<std::string>& keys) {
   TableInfo info{.name = std::move(name), .doc = {}, .fields = {}, .groups = {}};
-  for (const std::string& key : keys)
-    info.fields.push_back({.key = key,
-                           .doc = {},
-                           .kind = {},
-                           .required = false,
-                           .schema = {},
-                           .default_value = {},
-                           .tables = {}});
+  for (const std::string& key : keys) info.fields.push_back(required_field(key, {}, {}, {}, {}));
   return info;
 }
 
