@@ -11,8 +11,8 @@
 #include <string_view>
 #include <vector>
 
-#include "runtime/integrate/runge_kutta.h"
 #include "runtime/engine/state.h"
+#include "runtime/integrate/runge_kutta.h"
 
 namespace twincraft {
 

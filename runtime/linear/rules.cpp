@@ -9,8 +9,8 @@
 #include <numbers>
 
 #include "compiler/ir/number.h"
-#include "runtime/linear/judge.h"
 #include "runtime/engine/measure.h"
+#include "runtime/linear/judge.h"
 
 namespace twincraft {
 namespace {
