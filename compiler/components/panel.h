@@ -61,8 +61,8 @@ Matrix3d segment_inertia(const PanelSpec& panel);  // [kg m^2] about its centre,
 std::optional<double> segment_period(const PanelSpec& panel);
 
 /// No damper of the panel decays faster than this [1/s]: c/J of a single segment, J about its
-/// hinge. In a chain each segment is held by two dampers at both its ends and its neighbours move
-/// against it, which makes that sixteen times as much at most.
+/// hinge. In a chain the dampers act as the square of a second difference, whose largest eigenvalue
+/// is sixteen; no chain of up to 64 equal segments was found to decay faster.
 double fastest_decay(const PanelSpec& panel);
 
 /// Mount, a right-angled hinge frame, list lengths, and an inertia that some body has.
