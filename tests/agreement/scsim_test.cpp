@@ -307,7 +307,7 @@ class Interrupted : public Scsim, public testing::WithParamInterface<std::pair<i
       test::await_work(program, 1.5);  // [s], and no program works for longer than it lasts
       kill(program, GetParam().first);
     };
-    return run_spinner({"--duration", "1.0e9 s", "--set", "simulation.record=1000 s",  //
+    return run_spinner({"--duration", "1.0e9 s", "--set", "simulation.record=100 s",  //
                         "--progress", progress},
                        {"", send});
   }

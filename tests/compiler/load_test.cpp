@@ -52,7 +52,7 @@ std::string repeated(std::string_view part, int times) {
   return text;
 }
 
-#ifdef __SANITIZE_ADDRESS__
+#ifdef TWINCRAFT_SANITIZED
 constexpr int kAllowance = 10;  // a sanitizer's own time and memory
 #else
 constexpr int kAllowance = 1;
