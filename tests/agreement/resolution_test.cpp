@@ -177,6 +177,10 @@ TEST_P(Resolution, AdvisesAStepThatResolves) {
   ASSERT_TRUE(before["advised_step_s"].is_number()) << last.out;
   const double advised = before["advised_step_s"];
   EXPECT_LT(advised, std::stod(one.step));
+#ifdef TWINCRAFT_SANITIZED
+  // Millions of steps are minutes there, and the same code as thousands.
+  if (vehicle(one.vehicle).duration / advised > 2.0e5) GTEST_SKIP();
+#endif
   const json after = run(text_of(one), {"--set", fmt::format("simulation.step={}", advised)});
   EXPECT_EQ(after["members"][0]["resolution"]["resolved"], true) << last.out;
 }

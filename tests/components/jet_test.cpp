@@ -423,7 +423,7 @@ TEST(Jet, KeepsTheOrderOfTheIntegrator) {
       return state;
     };
     // 0.033 s divides neither the burns nor the run: steps are split at every event.
-    const Eigen::VectorXd truth = end(0.033 / 16.0);
+    const Eigen::VectorXd truth = end(0.033 / 8.0);
     const double ratio = (end(0.033) - truth).norm() / (end(0.0165) - truth).norm();
     EXPECT_GT(ratio, 12.0) << engine->name();
     EXPECT_LT(ratio, 24.0) << engine->name();
