@@ -56,7 +56,7 @@ double exponent(double x1, double x2, double y1, double y2) {
   return exists && std::isfinite(value) ? value : std::nan("");
 }
 
-const Figure* find_figure(const StudyPoint& point, const Quantity& quantity) {
+const Figure* find_figure(const StudyPoint& point, const StudyQuantity& quantity) {
   for (const Figure& figure : point.figures)
     if (*figure.quantity == quantity) return &figure;
   return nullptr;
@@ -68,7 +68,7 @@ double exponent_before(const Trend& trend, std::size_t i) {
 }
 
 /// Nothing when there is neither an exponent to tell nor rounding to name.
-void add_trend(const Group& group, const Quantity& quantity, const Number& x,
+void add_trend(const Group& group, const StudyQuantity& quantity, const Number& x,
                std::vector<Trend>& trends) {
   Trend trend;
   trend.reference = quantity.reference;
@@ -92,7 +92,7 @@ void add_trend(const Group& group, const Quantity& quantity, const Number& x,
     trends.push_back(std::move(trend));
 }
 
-bool is_agreement(const Quantity& quantity) {
+bool is_agreement(const StudyQuantity& quantity) {
   return quantity.reference.empty() && quantity.engine.empty();
 }
 
@@ -168,7 +168,8 @@ bool Trend::has_exponents() const {
   return std::ranges::any_of(exponents, [](double value) { return !std::isnan(value); });
 }
 
-void StudyPoints::add_figure(Quantity quantity, double value, double rounding, StudyPoint& point) {
+void StudyPoints::add_figure(StudyQuantity quantity, double value, double rounding,
+                             StudyPoint& point) {
   point.figures.push_back({&*quantities_.insert(std::move(quantity)).first, value, rounding});
 }
 

@@ -15,16 +15,16 @@
 namespace twincraft {
 
 /// A number that members have in common.
-struct Quantity {
+struct StudyQuantity {
   std::string reference;  // `kepler`; empty: the difference of the engines
   std::string engine;     // `bsm`; empty: both
   std::string metric;     // `attitude_deg`; empty: microseconds a step
-  auto operator<=>(const Quantity&) const = default;
+  auto operator<=>(const StudyQuantity&) const = default;
 };
 
 /// What a member has of a quantity.
 struct Figure {
-  const Quantity* quantity = nullptr;
+  const StudyQuantity* quantity = nullptr;
   double value = 0.0;
   double rounding = 0.0;  // up to here the value is rounding; 0: nothing is known of that
 };
@@ -63,9 +63,9 @@ class StudyPoints {
   StudyPoints& operator=(StudyPoints&&) = default;
 
  private:
-  void add_figure(Quantity quantity, double value, double rounding, StudyPoint& point);
+  void add_figure(StudyQuantity quantity, double value, double rounding, StudyPoint& point);
 
-  std::set<Quantity> quantities_;  // what points refer to
+  std::set<StudyQuantity> quantities_;  // what points refer to
   std::vector<StudyPoint> all_;
 };
 
