@@ -57,9 +57,7 @@ struct Diagnostic {
     return *this;
   }
   Diagnostic& with_note(Span where, std::string text) {
-    Note& note = notes.emplace_back();  // in place: g++ 12 warns of the move out of a temporary
-    note.span = where;
-    note.message = std::move(text);
+    notes.push_back({where, std::move(text)});
     return *this;
   }
 };
