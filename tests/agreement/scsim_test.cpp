@@ -302,9 +302,15 @@ class Interrupted : public Scsim, public testing::WithParamInterface<std::pair<i
  protected:
   /// A run of some hours, interrupted when it has worked for long enough that both engines have
   /// flown some slices and the bar, which comes after half a second, would be shown.
+  /// Sanitizers make the slices longer.
   ProgramResult interrupt(const std::string& progress) {
     const auto send = [](pid_t program) {
-      test::await_work(program, 1.5);  // [s], and no program works for longer than it lasts
+#ifdef TWINCRAFT_SANITIZED
+      constexpr double kWork = 6.0;  // [s], and no program works for longer than it lasts
+#else
+      constexpr double kWork = 1.5;
+#endif
+      test::await_work(program, kWork);
       kill(program, GetParam().first);
     };
     return run_spinner({"--duration", "1.0e9 s", "--set", "simulation.record=100 s",  //
