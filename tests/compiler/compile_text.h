@@ -2,6 +2,7 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -16,9 +17,9 @@ namespace twincraft {
 class CompilesText : public testing::Test {
  protected:
   CompileResult compile_text(const std::string& text, std::vector<std::string> overrides = {}) {
+    // Many tests do this at once, each in a process of its own.
     const std::filesystem::path path =
-        std::filesystem::path(testing::TempDir()) /
-        (std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + ".yaml");
+        std::filesystem::path(testing::TempDir()) / ("text_" + std::to_string(getpid()) + ".yaml");
     std::ofstream(path) << text;
     CompileResult result = compile({path.string(), std::move(overrides)}, sources_, diagnostics_);
     std::filesystem::remove(path);

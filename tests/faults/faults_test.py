@@ -252,7 +252,9 @@ class Surroundings(Faults):
         self.assertEqual(plain, self.artefacts("root", cwd="/"))
         subprocess.run(["localedef", "-i", "de_DE", "-f", "UTF-8", self.folder / "de_DE.UTF-8"],
                        check=True, capture_output=True)
-        comma = {"LC_ALL": "de_DE.UTF-8", "LOCPATH": str(self.folder)}
+        # Reading LOCPATH leaks inside the C library, which sanitizers would blame on us.
+        comma = {"LC_ALL": "de_DE.UTF-8", "LOCPATH": str(self.folder),
+                 "ASAN_OPTIONS": "detect_leaks=0"}
         printed = self.run_in(["printf", "%.1f", "0,5"], env=comma).stdout
         self.assertEqual(printed, "0,5", "a locale with a comma is what this is about")
         for variables in ({}, comma, {"TZ": "Asia/Tokyo", "TERM": "dumb"},

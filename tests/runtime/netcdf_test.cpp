@@ -2,10 +2,12 @@
 // it came from.
 #include "runtime/report/netcdf.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <netcdf.h>
 #include <netcdf_mem.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -80,7 +82,8 @@ struct Written {
     run.trajectory = test::standstill(bundle.model);
   }
   std::string bytes() const {
-    const std::string path = testing::TempDir() + "written.nc";
+    // The tests of this file may run at once.
+    const std::string path = fmt::format("{}written-{}.nc", testing::TempDir(), getpid());
     NetcdfFile file(path, bundle, run.name, provenance());
     for (const Observation& sample : run.trajectory.samples) file.take(sample);
     file.close();
