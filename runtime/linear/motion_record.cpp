@@ -6,7 +6,6 @@
 
 #include "compiler/ir/truth.h"
 #include "runtime/engine/measure.h"
-#include "runtime/reference/reference.h"
 
 namespace twincraft {
 namespace {

@@ -7,7 +7,6 @@
 #include "runtime/bsm/engine.h"
 #include "runtime/engine/measure.h"
 #include "runtime/linear/linearise.h"
-#include "runtime/reference/reference.h"
 
 namespace twincraft {
 namespace {
