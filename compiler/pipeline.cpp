@@ -11,17 +11,17 @@
 #include <mutex>
 #include <utility>
 
-#include "compiler/components/spec.h"
-#include "compiler/emit_bsm.h"
-#include "compiler/emit_json.h"
-#include "compiler/emit_mjcf.h"
-#include "compiler/emit_resolved.h"
+#include "compiler/analysis/verify.h"
+#include "compiler/emit/assembly_json.h"
+#include "compiler/emit/json.h"
+#include "compiler/emit/mjcf.h"
+#include "compiler/emit/resolved.h"
+#include "compiler/schema/manual.h"
 #include "compiler/schema/partial.h"
-#include "compiler/schema/reference.h"
+#include "compiler/spec/spec.h"
 #include "compiler/syntax/extends.h"
 #include "compiler/syntax/load.h"
 #include "compiler/syntax/overrides.h"
-#include "compiler/verify.h"
 
 namespace twincraft {
 namespace {

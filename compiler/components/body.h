@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "compiler/components/attitude.h"
+#include "compiler/components/model_builder.h"
 #include "compiler/components/names.h"
-#include "compiler/model_builder.h"
 #include "compiler/schema/table.h"
 
 namespace twincraft {

@@ -2,7 +2,7 @@
 // not its centre of mass. Tested by tests/compiler/hub_test.cpp.
 #pragma once
 
-#include "compiler/model_builder.h"
+#include "compiler/components/model_builder.h"
 #include "compiler/schema/table.h"
 
 namespace twincraft {

@@ -8,8 +8,8 @@
 #include <optional>
 #include <variant>
 
+#include "compiler/components/model_builder.h"
 #include "compiler/components/names.h"
-#include "compiler/model_builder.h"
 #include "compiler/schema/table.h"
 
 namespace twincraft {

@@ -6,8 +6,8 @@
 
 #include <optional>
 
+#include "compiler/components/model_builder.h"
 #include "compiler/components/names.h"
-#include "compiler/model_builder.h"
 #include "compiler/schema/table.h"
 
 namespace twincraft {

@@ -5,8 +5,8 @@
 // own on the mount, at its position. Tested by tests/compiler/wheel_test.cpp.
 #pragma once
 
+#include "compiler/components/model_builder.h"
 #include "compiler/components/names.h"
-#include "compiler/model_builder.h"
 #include "compiler/schema/table.h"
 
 namespace twincraft {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "compiler/ir/truth.h"
+#include "compiler/analysis/truth.h"
 #include "runtime/engine/measure.h"
 
 namespace twincraft {

@@ -8,7 +8,7 @@
 
 #include "compiler/ir/model.h"
 #include "runtime/reference/kepler.h"
-#include "runtime/study/propagate.h"
+#include "runtime/simulate/propagate.h"
 
 namespace twincraft {
 

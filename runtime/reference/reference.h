@@ -1,5 +1,5 @@
 // How far a run is from an exact answer. Each reference starts from the first sample and shares
-// nothing with the engines; whether a vehicle has one is decided in compiler/ir/truth.
+// nothing with the engines; whether a vehicle has one is decided in compiler/analysis/truth.
 // Tested by tests/runtime/reference_test.cpp.
 #pragma once
 
@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "compiler/ir/truth.h"
+#include "compiler/analysis/truth.h"
 #include "runtime/engine/observation.h"
 
 namespace twincraft {

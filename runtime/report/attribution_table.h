@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "runtime/report/report.h"
+#include "runtime/study/results.h"
 
 namespace twincraft {
 

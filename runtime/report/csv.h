@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "compiler/ir/model.h"
-#include "runtime/study/propagate.h"
+#include "runtime/simulate/propagate.h"
 
 namespace twincraft {
 

@@ -5,7 +5,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "runtime/report/report.h"
+#include "runtime/study/results.h"
 
 namespace twincraft {
 

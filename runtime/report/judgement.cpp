@@ -27,25 +27,17 @@ std::string clause_of(const JudgedFigure& figure) {
 
 }  // namespace
 
-bool judges_agreement(const Member& member) {
-  return std::ranges::any_of(
-      member.judged(), [](Of of) { return of == Of::kAgreement; }, &JudgedFigure::of);
-}
-
-std::string exceeded_words(const Member& member) {
+std::string exceeded_words(std::span<const JudgedFigure> exceeded) {
   std::vector<std::string> clauses;
-  for (const JudgedFigure& figure : member.judged()) {
-    if (figure.held()) continue;
+  for (const JudgedFigure& figure : exceeded) {
     std::string clause = clause_of(figure);
     if (std::ranges::find(clauses, clause) == clauses.end()) clauses.push_back(std::move(clause));
   }
   return fmt::format("{}", fmt::join(clauses, "; "));
 }
 
-std::string exceeded_words(const Report& report) { return report.summary()->exceeded(); }
-
 std::string held_words(const Member& member) {
-  return judges_agreement(member) ? "the engines agree" : "every tolerance held";
+  return member.judges_agreement() ? "the engines agree" : "every tolerance held";
 }
 
 std::string held_words(const Report& report) {

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "runtime/report/report.h"
+#include "runtime/study/results.h"
 
 namespace twincraft {
 

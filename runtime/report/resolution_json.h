@@ -3,7 +3,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "runtime/study/run.h"
+#include "runtime/study/member.h"
 
 namespace twincraft {
 

@@ -75,7 +75,7 @@ std::string study_words(const Report& report) {
     case Verdict::kAgree:
       return held_words(report) + " in every member";
     case Verdict::kDisagree:
-      return fmt::format("{}, in {}", exceeded_words(report),
+      return fmt::format("{}, in {}", exceeded_words(report.summary()->exceeded()),
                          members(count(report, Verdict::kDisagree)));
     case Verdict::kUnresolved:
       return fmt::format("unresolved: the step of {} does not resolve the vehicle",
@@ -99,7 +99,7 @@ std::string verdict_line(const Member& member, bool colour) {
     case Verdict::kAgree:
       return paint(held_words(member), shade_of(verdict), colour);
     case Verdict::kDisagree:
-      return paint(exceeded_words(member), shade_of(verdict), colour);
+      return paint(exceeded_words(member.exceeded()), shade_of(verdict), colour);
     case Verdict::kUnresolved:
       return paint("unresolved", shade_of(verdict), colour) + ": " + unresolved_words(member);
     case Verdict::kFailed:

@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "runtime/study/agreement.h"
+#include "runtime/compare/agreement.h"
+#include "runtime/compare/error_series.h"
 #include "runtime/study/causes.h"
-#include "runtime/study/error_series.h"
 
 namespace twincraft {
 

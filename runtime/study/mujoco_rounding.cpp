@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "runtime/bsm/engine.h"
+#include "runtime/compare/random_state.h"
+#include "runtime/compare/rounding.h"
 #include "runtime/mujoco/engine.h"
-#include "runtime/study/random_state.h"
-#include "runtime/study/rounding.h"
 
 namespace twincraft {
 namespace {

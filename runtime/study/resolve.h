@@ -5,7 +5,7 @@
 
 #include "runtime/linear/inspection.h"
 #include "runtime/linear/motion_record.h"
-#include "runtime/study/run.h"
+#include "runtime/study/member.h"
 
 namespace twincraft {
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "compiler/ir/study.h"
-#include "runtime/study/run.h"
+#include "runtime/study/member.h"
 
 namespace twincraft {
 

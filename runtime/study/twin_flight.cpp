@@ -13,9 +13,9 @@
 
 #include "compiler/ir/number.h"
 #include "runtime/bsm/engine.h"
+#include "runtime/compare/pairing.h"
 #include "runtime/mujoco/engine.h"
 #include "runtime/reference/running.h"
-#include "runtime/study/pairing.h"
 #include "runtime/study/resolve.h"
 
 namespace twincraft {

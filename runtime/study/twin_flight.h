@@ -6,7 +6,7 @@
 #include <memory>
 #include <string_view>
 
-#include "runtime/study/run.h"
+#include "runtime/study/member.h"
 
 namespace twincraft {
 

@@ -1,5 +1,5 @@
 // Claims about what is known of a run before it starts.
-#include "runtime/estimate.h"
+#include "tools/programs/estimate.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -11,12 +11,12 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "compiler/cli.h"
 #include "runtime/bsm/engine.h"
 #include "runtime/mujoco/engine.h"
-#include "runtime/study/timing.h"
+#include "runtime/simulate/timing.h"
 #include "tests/bench/raw_mujoco.h"
 #include "tests/bench/vehicle.h"
+#include "tools/programs/cli.h"
 
 namespace twincraft::bench {
 namespace {

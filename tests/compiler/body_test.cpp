@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "compiler/ir/configuration.h"
+#include "compiler/analysis/configuration.h"
 #include "tests/compiler/trial.h"
 
 namespace twincraft {

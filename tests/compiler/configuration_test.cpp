@@ -1,5 +1,5 @@
 // Forward kinematics against hand geometry and against finite differences of itself.
-#include "compiler/ir/configuration.h"
+#include "compiler/analysis/configuration.h"
 
 #include <gtest/gtest.h>
 

@@ -2,10 +2,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "compiler/emit_bsm.h"
-#include "compiler/emit_dot.h"
-#include "compiler/emit_json.h"
-#include "compiler/emit_resolved.h"
+#include "compiler/emit/assembly_json.h"
+#include "compiler/emit/dot.h"
+#include "compiler/emit/json.h"
+#include "compiler/emit/resolved.h"
 #include "tests/compiler/vehicles.h"
 
 namespace twincraft {

@@ -1,5 +1,5 @@
 // Gravity, the controls of both engines, and what a run is judged by.
-#include "compiler/components/engines.h"
+#include "compiler/spec/engines.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // The initial state: orbits, the centre of mass against the hub's origin, attitude forms.
-#include "compiler/components/initial.h"
+#include "compiler/spec/initial.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

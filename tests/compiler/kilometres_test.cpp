@@ -1,5 +1,5 @@
 // Orbits in kilometres that are written as metres, and those that are meant as they stand.
-#include "compiler/components/kilometres.h"
+#include "compiler/spec/kilometres.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // What components add reaches both halves, and wheels are folded as the header says.
-#include "compiler/model_builder.h"
+#include "compiler/components/model_builder.h"
 
 #include <gtest/gtest.h>
 

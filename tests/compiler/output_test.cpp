@@ -1,5 +1,5 @@
 // Files appear whole or not at all.
-#include "compiler/output.h"
+#include "compiler/files/output.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

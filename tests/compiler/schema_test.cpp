@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "compiler/schema/manual.h"
 #include "compiler/schema/partial.h"
-#include "compiler/schema/reference.h"
 #include "tests/compiler/schema_reading.h"
 
 namespace twincraft {

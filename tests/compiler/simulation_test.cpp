@@ -1,5 +1,5 @@
 // Steps, step rules, tolerances and records.
-#include "compiler/components/simulation.h"
+#include "compiler/spec/simulation.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "compiler/ir/configuration.h"
+#include "compiler/analysis/configuration.h"
 #include "tests/compiler/trial.h"
 
 namespace twincraft {

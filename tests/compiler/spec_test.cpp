@@ -1,5 +1,5 @@
 // What holds between the sections of a spec, and the model as a whole.
-#include "compiler/components/spec.h"
+#include "compiler/spec/spec.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

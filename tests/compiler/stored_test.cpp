@@ -1,5 +1,5 @@
 // States of a truth that a spec brings along: what is read, and what is refused.
-#include "compiler/components/stored.h"
+#include "compiler/spec/stored.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // Claims about studies as the compiler sees them: which members there are, in which order, and what
 // is said of their faults.
-#include "compiler/components/study.h"
+#include "compiler/spec/study.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "compiler/components/spec.h"
+#include "compiler/spec/spec.h"
 #include "tests/compiler/schema_reading.h"
 
 namespace twincraft {

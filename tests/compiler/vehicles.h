@@ -1,7 +1,7 @@
 // Small vehicles put together without a spec, for tests of the stages behind the components.
 #pragma once
 
-#include "compiler/model_builder.h"
+#include "compiler/components/model_builder.h"
 
 namespace twincraft::test {
 

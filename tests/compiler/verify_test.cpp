@@ -1,5 +1,5 @@
 // The compiler's own comparison accepts what is one machine and names what is not.
-#include "compiler/verify.h"
+#include "compiler/analysis/verify.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

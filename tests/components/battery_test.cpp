@@ -10,11 +10,11 @@
 #include "compiler/pipeline.h"
 #include "runtime/bsm/engine.h"
 #include "runtime/bsm/plan.h"
+#include "runtime/compare/agreement.h"
+#include "runtime/compare/conservation.h"
+#include "runtime/compare/random_state.h"
 #include "runtime/mujoco/engine.h"
-#include "runtime/study/agreement.h"
-#include "runtime/study/conservation.h"
-#include "runtime/study/propagate.h"
-#include "runtime/study/random_state.h"
+#include "runtime/simulate/propagate.h"
 
 namespace twincraft {
 namespace {

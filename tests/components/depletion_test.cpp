@@ -8,9 +8,9 @@
 #include "compiler/ir/number.h"
 #include "compiler/pipeline.h"
 #include "runtime/bsm/engine.h"
+#include "runtime/compare/random_state.h"
 #include "runtime/mujoco/engine.h"
-#include "runtime/study/propagate.h"
-#include "runtime/study/random_state.h"
+#include "runtime/simulate/propagate.h"
 #include "tests/support/allocation_counter.h"
 
 namespace twincraft {

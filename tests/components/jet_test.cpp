@@ -5,14 +5,14 @@
 #include <cmath>
 #include <map>
 
+#include "compiler/analysis/configuration.h"
 #include "compiler/diag/print.h"
-#include "compiler/ir/configuration.h"
 #include "compiler/pipeline.h"
 #include "runtime/bsm/engine.h"
+#include "runtime/compare/agreement.h"
+#include "runtime/compare/random_state.h"
 #include "runtime/mujoco/engine.h"
-#include "runtime/study/agreement.h"
-#include "runtime/study/propagate.h"
-#include "runtime/study/random_state.h"
+#include "runtime/simulate/propagate.h"
 #include "tests/support/allocation_counter.h"
 
 namespace twincraft {

@@ -17,7 +17,7 @@
 #include "compiler/pipeline.h"
 #include "runtime/bsm/engine.h"
 #include "runtime/mujoco/engine.h"
-#include "runtime/study/propagate.h"
+#include "runtime/simulate/propagate.h"
 
 namespace twincraft {
 namespace {

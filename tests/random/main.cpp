@@ -9,7 +9,7 @@
 #include <mutex>
 #include <thread>
 
-#include "compiler/emit_resolved.h"
+#include "compiler/emit/resolved.h"
 #include "tests/random/examine.h"
 #include "tests/random/generator.h"
 #include "tests/random/shrink.h"

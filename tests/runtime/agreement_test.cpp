@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "compiler/ir/angle.h"
-#include "runtime/study/run.h"
+#include "runtime/study/member.h"
 #include "tests/runtime/handmade.h"
 
 namespace twincraft {

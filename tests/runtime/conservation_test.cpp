@@ -1,5 +1,5 @@
 // Claims about the balances, on trajectories and books written by hand.
-#include "runtime/study/conservation.h"
+#include "runtime/compare/conservation.h"
 
 #include <gtest/gtest.h>
 

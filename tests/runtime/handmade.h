@@ -2,7 +2,7 @@
 #pragma once
 
 #include "compiler/ir/model.h"
-#include "runtime/study/propagate.h"
+#include "runtime/simulate/propagate.h"
 
 namespace twincraft::test {
 

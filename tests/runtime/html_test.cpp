@@ -8,14 +8,14 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "runtime/report/html/assets.h"
-#include "runtime/report/html/base64.h"
-#include "runtime/report/html/decimate.h"
-#include "runtime/report/html/document.h"
-#include "runtime/report/html/page_data.h"
-#include "runtime/report/html/page_series.h"
-#include "runtime/report/html/replay_data.h"
 #include "runtime/report/json.h"
+#include "runtime/report/page/assets.h"
+#include "runtime/report/page/base64.h"
+#include "runtime/report/page/decimate.h"
+#include "runtime/report/page/document.h"
+#include "runtime/report/page/page_data.h"
+#include "runtime/report/page/page_series.h"
+#include "runtime/report/page/replay_data.h"
 #include "tests/runtime/handmade.h"
 
 namespace twincraft {

@@ -1,5 +1,7 @@
 // Claims about the printed MJCF: MuJoCo reads back the very numbers of the model, accepts what
 // rounding or an idealisation would make it refuse, and finds the spec's start in the keyframe.
+#include "compiler/emit/mjcf.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <tinyxml2.h>
@@ -9,7 +11,6 @@
 #include <map>
 #include <set>
 
-#include "compiler/emit_mjcf.h"
 #include "runtime/mujoco/handles.h"
 #include "runtime/mujoco/tree_map.h"
 #include "tests/support/sample_models.h"

@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <limits>
 
-#include "compiler/emit_mjcf.h"
-#include "compiler/model_builder.h"
+#include "compiler/components/model_builder.h"
+#include "compiler/emit/mjcf.h"
 #include "runtime/mujoco/engine.h"
 #include "runtime/mujoco/handles.h"
 #include "runtime/mujoco/tree_map.h"

@@ -7,13 +7,13 @@
 #include "compiler/diag/print.h"
 #include "compiler/pipeline.h"
 #include "runtime/bsm/engine.h"
+#include "runtime/compare/agreement.h"
+#include "runtime/compare/conservation.h"
+#include "runtime/compare/proof.h"
+#include "runtime/compare/random_state.h"
 #include "runtime/mujoco/engine.h"
 #include "runtime/reference/reference.h"
-#include "runtime/study/agreement.h"
-#include "runtime/study/conservation.h"
-#include "runtime/study/proof.h"
-#include "runtime/study/random_state.h"
-#include "runtime/study/run.h"
+#include "runtime/study/member.h"
 
 namespace twincraft {
 namespace {

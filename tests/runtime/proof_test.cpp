@@ -1,6 +1,6 @@
 // Claims about the proof: it passes for one machine built twice, and every kind of difference
 // between two machines is found and named.
-#include "runtime/study/proof.h"
+#include "runtime/compare/proof.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,11 +9,11 @@
 #include <functional>
 #include <random>
 
-#include "compiler/emit_mjcf.h"
-#include "compiler/model_builder.h"
+#include "compiler/components/model_builder.h"
+#include "compiler/emit/mjcf.h"
 #include "runtime/bsm/engine.h"
+#include "runtime/compare/random_state.h"
 #include "runtime/mujoco/engine.h"
-#include "runtime/study/random_state.h"
 #include "tests/support/sample_models.h"
 
 namespace twincraft {

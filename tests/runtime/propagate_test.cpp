@@ -1,6 +1,6 @@
 // Whole runs of a toy engine: where steps land, what is recorded, what events do to the order, and
 // how a run ends when it does not go well.
-#include "runtime/study/propagate.h"
+#include "runtime/simulate/propagate.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

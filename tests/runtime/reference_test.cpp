@@ -10,7 +10,7 @@
 
 #include "runtime/reference/kepler.h"
 #include "runtime/reference/spin_up.h"
-#include "runtime/study/propagate.h"
+#include "runtime/simulate/propagate.h"
 #include "tests/runtime/toy_engine.h"
 
 namespace twincraft {

@@ -10,10 +10,10 @@
 
 #include "runtime/report/csv.h"
 #include "runtime/report/json.h"
-#include "runtime/report/progress.h"
 #include "runtime/report/table.h"
 #include "runtime/report/words.h"
 #include "tests/runtime/handmade.h"
+#include "tools/programs/progress.h"
 
 namespace twincraft {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <numbers>
 
-#include "runtime/study/propagate.h"
+#include "runtime/simulate/propagate.h"
 #include "tests/runtime/toy_engine.h"
 
 namespace twincraft {

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "runtime/compare/pairing.h"
 #include "runtime/reference/running.h"
 #include "runtime/report/json.h"
-#include "runtime/study/pairing.h"
 #include "tests/runtime/handmade.h"
 
 namespace twincraft {

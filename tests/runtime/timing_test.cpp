@@ -1,5 +1,5 @@
 // Claims about the timing protocol: which runs, in which order, and what is made of them.
-#include "runtime/study/timing.h"
+#include "runtime/simulate/timing.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "compiler/ir/angle.h"
-#include "runtime/study/propagate.h"
+#include "runtime/simulate/propagate.h"
 #include "tests/runtime/toy_engine.h"
 
 namespace twincraft {

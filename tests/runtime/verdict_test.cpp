@@ -1,5 +1,5 @@
 // What follows from judged figures, written by hand.
-#include "runtime/study/verdict.h"
+#include "runtime/compare/verdict.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 // forces act are Simbody's. Wheels are bodies that spin, not gyrostats.
 #pragma once
 
-#include "runtime/study/random_state.h"
+#include "runtime/compare/random_state.h"
 
 namespace twincraft::test {
 

@@ -1,0 +1,309 @@
+// Figures are listed once, with what they show and the metric that judges them.
+// Tested by tests/runtime/html_test.cpp.
+#include "runtime/report/page/histories.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "runtime/engine/measure.h"
+#include "runtime/report/page/base64.h"
+#include "runtime/report/page/decimate.h"
+#include "runtime/report/words.h"
+
+namespace twincraft {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Kind = Coordinate::Kind;
+
+// What a page can hold: a screen has some 2000 columns of dots, and 300 000 numbers are 3.2 MB.
+constexpr std::size_t kMostPoints = 3000;
+constexpr std::size_t kMostNumbers = 300'000;
+constexpr std::size_t kLeastPoints = 200;
+
+using Series = Histories::Series;
+using Figure = Histories::Figure;
+
+Figure vector_figure(const char* title, const char* unit, const char* metric,
+                     Vector3d Observation::*vector) {
+  Figure figure{title, unit, metric, {}};
+  for (int i = 0; i < 3; ++i)
+    figure.series.push_back(
+        {std::string(1, "xyz"[i]), [vector, i](const Observation& o) { return (o.*vector)[i]; }});
+  return figure;
+}
+
+Figure attitude_figure() {
+  Figure figure{"Attitude, quaternion from hub to inertial axes", "1", "attitude_deg", {}};
+  figure.series.push_back({"w", [](const Observation& o) { return o.q_BN.w(); }});
+  for (int i = 0; i < 3; ++i)
+    figure.series.push_back(
+        {std::string(1, "xyz"[i]), [i](const Observation& o) { return o.q_BN.vec()[i]; }});
+  return figure;
+}
+
+/// Positions or rates of the joints of some kinds.
+Figure joint_figure(const Model& model, Figure figure, std::vector<double> Observation::*values,
+                    double scale, std::initializer_list<Kind> kinds) {
+  for (const Coordinate& coordinate : model.coordinates) {
+    if (std::find(kinds.begin(), kinds.end(), coordinate.kind) == kinds.end()) continue;
+    const auto joint = static_cast<std::size_t>(coordinate.index - 1);
+    figure.series.push_back({coordinate.name, [values, joint, scale](const Observation& o) {
+                               return scale * (o.*values)[joint];
+                             }});
+  }
+  return figure;
+}
+
+Figure wheel_figure(const Model& model) {
+  Figure figure{"Wheel rates", "rad/s", "wheel_rate_rad_s", {}};
+  for (const Coordinate& coordinate : model.coordinates) {
+    if (coordinate.kind != Kind::kWheel) continue;
+    const auto wheel = static_cast<std::size_t>(coordinate.index);
+    figure.series.push_back(
+        {coordinate.name, [wheel](const Observation& o) { return o.wheel_rate[wheel]; }});
+  }
+  return figure;
+}
+
+std::vector<Figure> coordinate_figures(const Model& model) {
+  const auto position = &Observation::joint_position;
+  const auto rate = &Observation::joint_rate;
+  const std::initializer_list<Kind> angles = {Kind::kPanel, Kind::kBodyAngle};
+  return {
+      joint_figure(model, {"Panel and joint angles", "deg", "joint_deg", {}}, position, kDegrees,
+                   angles),
+      joint_figure(model, {"Joint travel", "m", "joint_m", {}}, position, 1.0,
+                   {Kind::kBodyDisplacement}),
+      wheel_figure(model),
+      joint_figure(model, {"Slosh displacements", "m", "slosh_m", {}}, position, 1.0,
+                   {Kind::kParticle}),
+      joint_figure(model, {"Pendulum angles", "deg", "pendulum_deg", {}}, position, kDegrees,
+                   {Kind::kPendulum}),
+      joint_figure(model, {"Panel and joint rates", "deg/s", "", {}}, rate, kDegrees, angles),
+      joint_figure(model, {"Joint speeds", "m/s", "", {}}, rate, 1.0,
+                   {Kind::kBodyDisplacement, Kind::kParticle}),
+      joint_figure(model, {"Pendulum rates", "deg/s", "", {}}, rate, kDegrees, {Kind::kPendulum}),
+  };
+}
+
+bool is_constant(const Model& model) {
+  return std::all_of(model.tanks.begin(), model.tanks.end(),
+                     [](const Tank& tank) { return tank.mass_flow.is_zero(); });
+}
+
+std::vector<Figure> figures_of(const Model& model) {
+  std::vector<Figure> figures;
+  if (!model.simulation.translation) {
+    figures.push_back(attitude_figure());
+    figures.push_back(
+        vector_figure("Body rate, hub axes", "rad/s", "rate_rad_s", &Observation::omega_BN_B));
+  }
+  for (Figure& figure : coordinate_figures(model))
+    if (!figure.series.empty()) figures.push_back(std::move(figure));
+  figures.push_back(
+      vector_figure("Hub position, inertial axes", "m", "position_m", &Observation::r_BN_N));
+  figures.push_back(
+      vector_figure("Hub velocity, inertial axes", "m/s", "velocity_m_s", &Observation::v_BN_N));
+  figures.push_back(vector_figure("System centre of mass, inertial axes", "m", "com_position_m",
+                                  &Observation::r_CN_N));
+  if (!is_constant(model))
+    figures.push_back(
+        {"Mass", "kg", "mass_kg", {{"mass", [](const Observation& o) { return o.mass; }}}});
+  return figures;
+}
+
+std::vector<std::string> keys_of(const Model& model) {
+  std::vector<std::string> keys;
+  for (const MetricLaw& law : metric_laws(model)) keys.push_back(law.key);
+  return keys;
+}
+
+constexpr std::size_t kBalances = 3;
+
+std::size_t count_series(const std::vector<Figure>& figures) {
+  std::size_t count = 0;
+  for (const Figure& figure : figures) count += figure.series.size();
+  return count;
+}
+
+std::size_t count_unjudged(const std::vector<Figure>& figures) {
+  std::size_t count = 0;
+  for (const Figure& figure : figures)
+    if (figure.metric.empty()) count += figure.series.size();
+  return count;
+}
+
+/// How many points each column may have.
+std::size_t points_for(const std::vector<Figure>& figures) {
+  const std::size_t columns = 10 + 3 * count_series(figures);  // 10: times and conservation
+  return std::clamp(kMostNumbers / columns, kLeastPoints, kMostPoints);
+}
+
+/// The figures as JSON, once all samples are there.
+class HistoryPrinter {
+ public:
+  HistoryPrinter(const Model& model, const Member& member, const std::vector<Figure>& figures,
+                 const std::vector<std::string>& metrics, const std::array<Decimator, 2>& engines,
+                 const Decimator& pairs)
+      : model_(model),
+        member_(member),
+        figures_(figures),
+        metrics_(metrics),
+        engines_(engines),
+        pairs_(pairs),
+        next_unjudged_(metrics.size()) {}
+
+  Json times() const;
+  /// Figures one after another: the columns of each follow those of the one before.
+  Json figures();
+  Json conservation(const std::array<ConservationMeter, 2>& books) const;
+
+ private:
+  const std::string& name(std::size_t engine) const { return member_.engines[engine].name; }
+  Json figure_json(const Figure& figure);
+  Json difference_json(const Figure& figure);
+  Json metric_json(const std::string& key) const;
+  Json plain_differences(const Figure& figure);
+
+  const Model& model_;
+  const Member& member_;
+  const std::vector<Figure>& figures_;
+  const std::vector<std::string>& metrics_;
+  const std::array<Decimator, 2>& engines_;
+  const Decimator& pairs_;
+  std::size_t next_series_ = 0, next_unjudged_;  // columns
+};
+
+Json HistoryPrinter::times() const {
+  Json times = Json::object();
+  for (std::size_t engine : {0U, 1U})
+    if (engines_[engine].samples() > 0) times[name(engine)] = base64(engines_[engine].times());
+  if (pairs_.samples() > 0) times["difference"] = base64(pairs_.times());
+  return times;
+}
+
+/// The very metric of the agreement table.
+Json HistoryPrinter::metric_json(const std::string& key) const {
+  const auto column = std::find(metrics_.begin(), metrics_.end(), key) - metrics_.begin();
+  const auto [label, unit] = words_of(key, model_);
+  Json json{{"unit", unit}, {"metric", key}, {"tolerance", nullptr}};
+  if (member_.comparison)
+    for (const Metric& metric : member_.comparison->metrics)
+      if (metric.key == key && metric.tolerance) json["tolerance"] = *metric.tolerance;
+  json["series"] = {
+      {{"name", label}, {"values", base64(pairs_.extremes(static_cast<std::size_t>(column)))}}};
+  return json;
+}
+
+/// Where no metric exists: component by component.
+Json HistoryPrinter::plain_differences(const Figure& figure) {
+  Json json{{"unit", figure.unit}, {"tolerance", nullptr}, {"series", Json::array()}};
+  for (const Series& series : figure.series)
+    json["series"].push_back(
+        {{"name", series.name}, {"values", base64(pairs_.extremes(next_unjudged_++))}});
+  return json;
+}
+
+Json HistoryPrinter::difference_json(const Figure& figure) {
+  if (pairs_.samples() == 0) return nullptr;
+  return figure.metric.empty() ? plain_differences(figure) : metric_json(figure.metric);
+}
+
+Json HistoryPrinter::figure_json(const Figure& figure) {
+  Json json{{"title", figure.title}, {"unit", figure.unit}, {"series", Json::array()}};
+  for (const Series& series : figure.series) {
+    Json one{{"name", series.name}};
+    for (std::size_t engine : {0U, 1U})
+      if (engines_[engine].samples() > 0)
+        one[name(engine)] = base64(engines_[engine].extremes(next_series_));
+    json["series"].push_back(std::move(one));
+    ++next_series_;
+  }
+  json["difference"] = difference_json(figure);
+  return json;
+}
+
+Json HistoryPrinter::figures() {
+  Json json = Json::array();
+  for (const Figure& figure : figures_) json.push_back(figure_json(figure));
+  return json;
+}
+
+Json HistoryPrinter::conservation(const std::array<ConservationMeter, 2>& books) const {
+  Json json{{"title", "Imbalance of the conservation books"},
+            {"unit", "1"},
+            {"logarithmic", true},
+            {"series", Json::array()}};
+  std::size_t column = count_series(figures_);
+  const auto add = [&](const char* label, double Conservation::*balance) {
+    Json one{{"name", label}};
+    for (std::size_t engine : {0U, 1U}) {
+      if (engines_[engine].samples() == 0) continue;
+      std::vector<double> values = engines_[engine].extremes(column);
+      const double scale = books[engine].scales().*balance;
+      for (double& value : values) value = ConservationMeter::relative(value, scale);
+      one[name(engine)] = base64(values);
+    }
+    json["series"].push_back(std::move(one));
+    ++column;
+  };
+  add("energy", &Conservation::energy);
+  add("momentum", &Conservation::momentum);
+  add("angular momentum", &Conservation::angular_momentum);
+  return json;
+}
+
+}  // namespace
+
+Histories::Histories(const Model& model)
+    : figures_(figures_of(model)),
+      metrics_(keys_of(model)),
+      engines_{Decimator(count_series(figures_) + kBalances, points_for(figures_)),
+               Decimator(count_series(figures_) + kBalances, points_for(figures_))},
+      pairs_(metrics_.size() + count_unjudged(figures_), points_for(figures_)) {}
+
+void Histories::take(std::size_t engine, const Observation& sample, const Books& books) {
+  std::vector<double>& row = row_.at(engine);
+  row.clear();
+  for (const Figure& figure : figures_)
+    for (const Series& series : figure.series) row.push_back(series.value(sample));
+  ConservationMeter& meter = books_.at(engine);
+  meter.take(sample, books);
+  const Conservation& imbalance = meter.imbalance();
+  row.insert(row.end(), {imbalance.energy, imbalance.momentum, imbalance.angular_momentum});
+  engines_.at(engine).take(sample.time, row);
+}
+
+void Histories::take_pair(const Observation& bsm, const Observation& mujoco,
+                          std::span<const double> metrics) {
+  std::vector<double>& row = row_[2];
+  row.assign(metrics.begin(), metrics.end());
+  for (const Figure& figure : figures_) {
+    if (!figure.metric.empty()) continue;
+    for (const Series& series : figure.series)
+      row.push_back(std::abs(series.value(bsm) - series.value(mujoco)));
+  }
+  pairs_.take(bsm.time, row);
+}
+
+Json Histories::json(const Model& model, const Member& member) const {
+  HistoryPrinter printer(model, member, figures_, metrics_, engines_, pairs_);
+  const std::array<const Decimator*, 3> all{&engines_[0], &engines_[1], &pairs_};
+  std::size_t points = 0;
+  bool thinned = false;
+  for (const Decimator* one : all) {
+    points = std::max(points, one->points());
+    thinned = thinned || one->thins();
+  }
+  Json json{{"samples", std::max(engines_[0].samples(), engines_[1].samples())},
+            {"points", points},
+            {"thinned", thinned},
+            {"times", printer.times()},
+            {"figures", printer.figures()}};
+  json["figures"].push_back(printer.conservation(books_));
+  return json;
+}
+
+}  // namespace twincraft

@@ -1,0 +1,262 @@
+// See command.h. Tested by tests/agreement/scsim_test.cpp.
+#include "tools/programs/command.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <thread>
+
+#include "compiler/diag/print.h"
+#include "compiler/files/output.h"
+#include "compiler/ir/number.h"
+#include "runtime/bsm/kernel.h"
+#include "tools/programs/estimate.h"
+#include "tools/programs/interrupt.h"
+#include "tools/programs/output_folder.h"
+#include "tools/programs/report_files.h"
+
+namespace twincraft {
+namespace {
+
+bool shows_progress(const CommonOptions& options) {
+  if (options.quiet || options.progress == "never") return false;
+  return options.progress == "always" || ::isatty(STDERR_FILENO) != 0;
+}
+
+/// A flag that stands for a `--set`.
+struct Convenience {
+  const char* name;
+  const char* path;
+  std::string value;  // empty: not given
+};
+
+std::vector<Convenience> conveniences(const CommonOptions& options) {
+  return {{"--step", "simulation.step", options.step},
+          {"--integrator", "simulation.integrator", options.integrator},
+          {"--duration", "simulation.duration", options.duration}};
+}
+
+/// `simulation.step` of `simulation.step = 0.1`.
+std::string path_of(const std::string& override) {
+  return CLI::detail::trim_copy(override.substr(0, override.find('=')));
+}
+
+/// One path is the other, or leads to a part of it.
+bool overlap(const std::string& a, const std::string& b) {
+  return a == b || a.starts_with(b + ".") || b.starts_with(a + ".");
+}
+
+using bsm::InstructionSet;
+
+constexpr std::array<std::pair<std::string_view, InstructionSet>, 3> kInstructionSets{{
+    {"portable", InstructionSet::kPortable},
+    {"avx2", InstructionSet::kAvx2},
+    {"avx512", InstructionSet::kAvx512},
+}};
+
+InstructionSet instructions_of(std::string_view isa) {
+  for (const auto& [word, set] : kInstructionSets)
+    if (word == isa) return set;
+  return bsm::best_instruction_set();
+}
+
+/// Empty, or that this processor lacks it.
+std::string check_processor(const std::string& isa) {
+  if (instructions_of(isa) <= bsm::best_instruction_set()) return {};
+  std::string has;
+  for (const auto& [word, set] : kInstructionSets)
+    if (set <= bsm::best_instruction_set())
+      has += fmt::format("{}{}", has.empty() ? "" : ", ", word);
+  return fmt::format("this processor has no `{}`; it has {}", isa, has);
+}
+
+}  // namespace
+
+void describe_input(CLI::App& app, CommonOptions& options, std::string_view files) {
+  app.add_option("spec", options.request.file, "spacecraft spec, or - for standard input")
+      ->type_name("SPEC");
+  app.add_option("-o,--output", options.folder, fmt::format("write {} here", files))
+      ->type_name("DIR");
+  app.add_option("--set", options.request.overrides, "change the spec first; repeatable")
+      ->type_name("PATH=VALUE")
+      ->allow_extra_args(false);
+  app.add_option("--step", options.step, "same as --set simulation.step=VALUE")->type_name("VALUE");
+  app.add_option("--integrator", options.integrator, "same as --set simulation.integrator=VALUE")
+      ->type_name("VALUE");
+  app.add_option("--duration", options.duration, "same as --set simulation.duration=VALUE")
+      ->type_name("VALUE");
+}
+
+void describe_jobs(CLI::App& app, CommonOptions& options, const std::string& meaning) {
+  app.add_option("--jobs", options.jobs, meaning)
+      ->type_name("N")
+      ->check(CLI::Range(1, 1024).description(""));
+}
+
+void describe_instructions(CLI::App& app, CommonOptions& options) {
+  app.add_option("--isa", options.isa,
+                 "instructions of the analytic engine: auto (default), portable, avx2, avx512")
+      ->type_name("SET")
+      ->check(one_of({"auto", "portable", "avx2", "avx512"}))
+      ->check(CLI::Validator([](std::string& isa) { return check_processor(isa); }, ""));
+}
+
+void describe_talk(CLI::App& app, CommonOptions& options) {
+  app.add_flag("--quiet", options.quiet, "print no report and no progress");
+  app.add_option("--progress", options.progress, "auto (default), always or never")
+      ->type_name("WHEN")
+      ->check(one_of({"auto", "always", "never"}));
+  app.add_option("--diagnostics", options.diagnostics, "text (default) or json")
+      ->type_name("FORMAT")
+      ->check(one_of({"text", "json"}));
+  add_warning_flags(app, options.warnings);
+  app.add_option("--explain", options.explain, "what a diagnostic code means, and the cure")
+      ->type_name("CODE");
+}
+
+std::optional<int> settle_flags(std::string_view program, CommonOptions& options) {
+  if (!options.explain.empty()) return explain_code(program, options.explain);
+  if (options.request.file.empty())
+    return report_usage(program, "SPEC is missing",
+                        fmt::format("for example `{} models/quickstart.yaml -o out`", program));
+  if (options.folder == "-")
+    return report_usage(program, "`-o -` would be standard output, but a report is several files",
+                        "name a folder, such as `-o out`; `-o ./-` is a folder named `-`");
+  const std::vector<std::string> given = options.request.overrides;
+  for (const Convenience& flag : conveniences(options)) {
+    if (flag.value.empty()) continue;
+    for (const std::string& override : given)
+      if (overlap(path_of(override), flag.path))
+        return report_usage(program,
+                            fmt::format("`{}` and {} set the same", flag.name,
+                                        in_backticks("--set " + path_of(override))),
+                            "leave one of them out");
+    options.request.overrides.push_back(fmt::format("{}={}", flag.path, flag.value));
+  }
+  return std::nullopt;
+}
+
+void complain(std::string_view text) { write_standard_error(fmt::format("scsim: {}\n", text)); }
+
+int print(std::string_view text) {
+  const std::string error = write_standard_output(text);
+  if (error.empty()) return kExitDone;
+  complain(error);
+  return kExitInputOutput;
+}
+
+int print_diagnostics(const Diagnostics& diagnostics, const CommonOptions& options) {
+  if (options.diagnostics == "json") return print(to_json(diagnostics));  // safe on terminals too
+  PrintOptions look;
+  look.colour = wants_colour(STDERR_FILENO);
+  write_standard_error(to_text(diagnostics, look));
+  return kExitDone;
+}
+
+RunOptions watched_run(const CommonOptions& options, ProgressBar& bar) {
+  RunOptions run;
+  run.stop = &watch_for_interrupts();
+  run.instructions = instructions_of(options.isa);
+  if (shows_progress(options))
+    run.progress = [&bar](std::string_view phase, double fraction) { bar.show(phase, fraction); };
+  return run;
+}
+
+int jobs_of(const CommonOptions& options) {
+  const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  return options.jobs > 0 ? options.jobs : cores;
+}
+
+Provenance provenance_of(const CommonOptions& options) {
+  Provenance made = provenance();
+  made.instructions = bsm::name_of(instructions_of(options.isa));
+  return made;
+}
+
+int compile_spec(const CommonOptions& options, Sources& sources, CompileResult& result) {
+  Diagnostics diagnostics;
+  ProgressBar bar(stderr);
+  CompileRequest request = options.request;
+  if (shows_progress(options))
+    request.progress = [&bar](std::size_t done, std::size_t planned) {
+      bar.show("check", static_cast<double>(done) / static_cast<double>(planned));
+    };
+  result = compile(request, sources, diagnostics);
+  bar.clear();
+  if (!result.io_error.empty()) {
+    complain(result.io_error);
+    return kExitInputOutput;
+  }
+  judge_warnings(options.warnings, diagnostics);
+  if (const int code = print_diagnostics(diagnostics, options); code != kExitDone) return code;
+  if (result.bad_override) return kExitUsage;
+  return result.bundle && !diagnostics.has_errors() ? kExitDone : kExitFindings;
+}
+
+int check_memory(const CompileResult& compiled, double trajectories, const CommonOptions& options) {
+  const Model& model = compiled.bundle->model;
+  const double needed = trajectories * trajectory_bytes(model);
+  if (needed <= kMostMemory) return kExitDone;
+  Diagnostics diagnostics;
+  diagnostics
+      .error(
+          Code::kTooManySteps, compiled.record_span,
+          fmt::format("{:.3g} samples of {} trajectories, which this analysis keeps, take {}, "
+                      "more than {}",
+                      samples_of(model), trajectories, size_words(needed), size_words(kMostMemory)))
+      .with_hint(fmt::format("raise `simulation.record` to {} s or more",
+                             shortest(record_that_fits(model, trajectories))));
+  const int printed = print_diagnostics(diagnostics, options);
+  return printed != kExitDone ? printed : kExitFindings;
+}
+
+int check_disk(const Model& model, double bytes, const CommonOptions& options) {
+  if (options.folder.empty()) return kExitDone;
+  const std::string error = check_room(options.folder, bytes, free_bytes(options.folder),
+                                       std::max(model.simulation.record, model.simulation.step));
+  if (error.empty()) return kExitDone;
+  complain(error);
+  return kExitInputOutput;
+}
+
+std::vector<std::string> report_files(const CommonOptions& options) {
+  if (options.folder.empty()) return {};
+  const std::filesystem::path folder = options.folder;
+  return {(folder / "report.json").string(), (folder / "report.html").string()};
+}
+
+int check_writable(const std::vector<std::string>& files) {
+  const std::string error = try_files(files);
+  if (error.empty()) return kExitDone;
+  complain(error);
+  return kExitInputOutput;
+}
+
+int write_report(const Report& report, const CommonOptions& options) {
+  if (options.folder.empty()) return kExitDone;
+  ReportFiles files(options.folder);
+  for (const ReportedMember& member : report.members) files.add(member);
+  const std::string error = files.write(report);
+  if (error.empty()) {
+    OutputFolder(options.folder).remove_leftovers();
+    return kExitDone;
+  }
+  complain(error);
+  return kExitInputOutput;
+}
+
+void tell_written(const std::vector<std::string>& files, const CommonOptions& options) {
+  if (options.quiet) return;
+  write_standard_error(
+      fmt::format("wrote {} to `{}`\n", fmt::join(files, ", "), printable(options.folder)));
+}
+
+bool prints_report(const CommonOptions& options) {
+  return !options.quiet && options.diagnostics != "json";
+}
+
+}  // namespace twincraft

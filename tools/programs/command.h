@@ -1,0 +1,78 @@
+// What scsim's commands share: the flags of every run, what is said and where, the spec compiled.
+// Tested by tests/agreement/scsim_test.cpp.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "compiler/diag/diagnostics.h"
+#include "compiler/pipeline.h"
+#include "runtime/study/results.h"
+#include "tools/programs/cli.h"
+#include "tools/programs/progress.h"
+
+namespace twincraft {
+
+struct CommonOptions {
+  CompileRequest request;
+  std::string folder;  // empty: no files
+  std::string step, integrator, duration;
+  int jobs = 0;  // 0: as many as there are cores
+  bool quiet = false;
+  std::string isa = "auto";
+  std::string progress = "auto";
+  std::string diagnostics = "text";
+  std::vector<std::string> warnings;  // what stands after -W
+  std::string explain;                // a diagnostic code: print its long text, run nothing
+};
+
+/// @param files  what is written into the folder
+void describe_input(CLI::App& app, CommonOptions& options, std::string_view files);
+void describe_jobs(CLI::App& app, CommonOptions& options, const std::string& meaning);
+void describe_instructions(CLI::App& app, CommonOptions& options);
+void describe_talk(CLI::App& app, CommonOptions& options);
+
+/// What the flags say by themselves: a code to explain, flags that exclude each other, no spec.
+/// `--step` and its like become the overrides they stand for.
+/// @return the exit code, or nothing to go on
+std::optional<int> settle_flags(std::string_view program, CommonOptions& options);
+
+void complain(std::string_view text);
+/// To standard output. @return the exit code
+int print(std::string_view text);
+int print_diagnostics(const Diagnostics& diagnostics, const CommonOptions& options);
+
+/// The flags of a run with these options; progress goes to `bar` if it is to be seen.
+RunOptions watched_run(const CommonOptions& options, ProgressBar& bar);
+int jobs_of(const CommonOptions& options);
+/// Of a run with these options.
+Provenance provenance_of(const CommonOptions& options);
+
+/// Compile, and say what is wrong. @return an exit code, 0 with `result.bundle`
+int compile_spec(const CommonOptions& options, Sources& sources, CompileResult& result);
+
+/// Refuses, at `simulation.record`, what needs more memory than is sensible.
+/// @param trajectories  that are kept at a time @return the exit code
+int check_memory(const CompileResult& compiled, double trajectories, const CommonOptions& options);
+/// Refuses files for which the disk has no room. @param bytes  that they take, or more
+int check_disk(const Model& model, double bytes, const CommonOptions& options);
+
+/// What the report will be called; nothing without -o.
+std::vector<std::string> report_files(const CommonOptions& options);
+
+/// Whether they could be written, said now rather than after a run of hours. @return the exit code
+int check_writable(const std::vector<std::string>& files);
+
+/// @return the exit code
+int write_report(const Report& report, const CommonOptions& options);
+
+/// Says on standard error what was written, unless `--quiet`. @param files  names in the folder
+void tell_written(const std::vector<std::string>& files, const CommonOptions& options);
+
+/// Whether a report for people goes to standard output; with JSON diagnostics that one document
+/// holds it.
+bool prints_report(const CommonOptions& options);
+
+}  // namespace twincraft

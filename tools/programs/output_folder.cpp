@@ -1,0 +1,85 @@
+// See output_folder.h. Tested by tests/agreement/study_test.cpp.
+#include "tools/programs/output_folder.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <optional>
+#include <string>
+#include <system_error>
+
+namespace twincraft {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array<std::string_view, 4> kTrajectories{"bsm.csv", "mujoco.csv", "bsm.nc",
+                                                        "mujoco.nc"};
+
+/// A member's number of a name such as `0001`; nothing of any other name.
+std::optional<std::size_t> member_of(const std::string& name) {
+  std::size_t member = 0;
+  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), member);
+  if (error != std::errc() || end != name.data() + name.size()) return std::nullopt;
+  return member > 0 && name == fmt::format("{:04}", member) ? std::optional(member) : std::nullopt;
+}
+
+/// A link is the user's, wherever it leads.
+bool is_plain_folder(const fs::path& path) {
+  std::error_code error;
+  return fs::symlink_status(path, error).type() == fs::file_type::directory;
+}
+
+bool is_plain_file(const fs::path& path) {
+  std::error_code error;
+  return fs::symlink_status(path, error).type() == fs::file_type::regular;
+}
+
+std::vector<fs::path> members_in(const fs::path& folder) {
+  std::vector<fs::path> members;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error))
+    if (member_of(entry->path().filename().string()) && is_plain_folder(entry->path()))
+      members.push_back(entry->path());
+  return members;
+}
+
+}  // namespace
+
+fs::path OutputFolder::of_member(std::size_t index) const {
+  return index == 0 ? folder_ : folder_ / fmt::format("{:04}", index);
+}
+
+void OutputFolder::wrote(std::size_t member, std::string_view name) {
+  const auto file = std::ranges::find(kTrajectories, name) - kTrajectories.begin();
+  if (written_.size() <= member) written_.resize(member + 1, 0);
+  written_[member] = static_cast<std::uint8_t>(written_[member] | 1U << file);
+}
+
+bool OutputFolder::has_written(std::size_t member, std::size_t file) const {
+  return member < written_.size() && (written_[member] >> file & 1U) != 0;
+}
+
+void OutputFolder::clean(const fs::path& folder, std::size_t member) const {
+  for (std::size_t file = 0; file < kTrajectories.size(); ++file) {
+    const fs::path path = folder / kTrajectories.at(file);
+    std::error_code ignored;
+    if (!has_written(member, file) && is_plain_file(path)) fs::remove(path, ignored);
+  }
+}
+
+void OutputFolder::remove_leftovers() const {
+  clean(folder_, 0);
+  for (const fs::path& folder : members_in(folder_)) {
+    std::error_code ignored;
+    if (fs::exists(folder / "report.json", ignored) || fs::exists(folder / "report.html", ignored))
+      continue;
+    clean(folder, *member_of(folder.filename().string()));
+    if (fs::is_empty(folder, ignored)) fs::remove(folder, ignored);
+  }
+}
+
+}  // namespace twincraft

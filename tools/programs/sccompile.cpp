@@ -1,0 +1,225 @@
+// sccompile: flags to pipeline to exit code. Results go to standard output or to files, diagnostics
+// to standard error. Tested by tests/malformed and tests/compiler/sccompile_test.cpp.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compiler/diag/print.h"
+#include "compiler/emit/dot.h"
+#include "compiler/files/output.h"
+#include "compiler/pipeline.h"
+#include "runtime/compare/proof.h"
+#include "runtime/linear/resolution.h"
+#include "tools/programs/cli.h"
+#include "tools/programs/progress.h"
+
+namespace twincraft {
+namespace {
+
+const std::vector<std::string> kTargets = {"mjcf", "bsm", "resolved", "dot"};
+const std::vector<std::string> kFormats = {"text", "json", "sarif"};
+
+struct Options {
+  CompileRequest request;
+  std::string folder = ".";
+  std::string emit = "mjcf,bsm";
+  std::string diagnostics = "text";
+  std::size_t max_errors = PrintOptions{}.max_errors;
+  std::vector<std::string> warnings;  // what stands after -W
+  bool check = false;
+  std::string explain;
+  bool schema = false;
+  bool reference = false;
+  std::vector<std::string> targets;  // of `emit`
+};
+
+void complain(const std::string& text) {
+  write_standard_error(fmt::format("sccompile: {}\n", text));
+}
+
+int usage(const std::string& text, const std::string& hint) {
+  return report_usage("sccompile", text, hint);
+}
+
+std::string did_you_mean(const std::string& word, const std::vector<std::string>& words) {
+  const std::string near = nearest(word, words);
+  return near.empty() ? fmt::format("one of {}", fmt::join(words, ", "))
+                      : fmt::format("did you mean `{}`?", near);
+}
+
+void describe(CLI::App& app, Options& options) {
+  app.add_option("SPEC", options.request.file, "spacecraft spec, or - for standard input")
+      ->type_name("");
+  app.add_option("-o,--output", options.folder, "folder of the results, or - for standard output")
+      ->type_name("DIR");
+  app.add_option("--emit", options.emit, "what to write: mjcf, bsm, resolved, dot")
+      ->type_name("LIST");
+  app.add_option("--set", options.request.overrides, "change the spec first; repeatable")
+      ->type_name("PATH=VALUE")
+      ->allow_extra_args(false);
+  app.add_flag("--check", options.check, "write nothing; prove both targets to be one machine");
+  app.add_option("--diagnostics", options.diagnostics, "text (default), json or sarif")
+      ->type_name("FORMAT");
+  app.add_option("--max-errors", options.max_errors, "show this many errors (default 50)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1'000'000).description(""));
+  add_warning_flags(app, options.warnings);
+  app.add_option("--explain", options.explain, "what a diagnostic code means, and the cure")
+      ->type_name("CODE");
+  app.add_flag("--schema", options.schema, "print the JSON Schema of the spec language");
+  app.add_flag("--reference", options.reference, "print the reference of the spec language");
+  app.set_help_flag("-h,--help", "print this");
+  app.set_version_flag("--version", "sccompile " TWINCRAFT_VERSION, "print the version");
+  app.footer(
+      "The results are DIR/NAME.xml (mjcf), NAME.bsm.json, NAME.resolved.yaml, NAME.dot.\n"
+      "Exit: 0 done, 1 the spec has faults, 2 usage, 3 input/output, 4 internal failure.\n\n"
+      "Example: sccompile models/quickstart.yaml -o out --set wheels.rw_x.speed='6000 rpm'");
+}
+
+/// @return an exit code, or nothing when the values make sense
+std::optional<int> refuse_bad_values(Options& options) {
+  if (std::find(kFormats.begin(), kFormats.end(), options.diagnostics) == kFormats.end()) {
+    return usage("`--diagnostics` cannot be " + in_backticks(options.diagnostics),
+                 did_you_mean(options.diagnostics, kFormats));
+  }
+  for (const std::string& word : CLI::detail::split(options.emit, ',')) {
+    const std::string target = CLI::detail::trim_copy(word);
+    if (std::find(kTargets.begin(), kTargets.end(), target) == kTargets.end()) {
+      return usage("`--emit` cannot be " + in_backticks(target), did_you_mean(target, kTargets));
+    }
+    options.targets.push_back(target);
+  }
+  const bool to_stdout = options.folder == "-" && !options.check;
+  if (to_stdout && options.targets.size() != 1) {
+    return usage("`-o -` writes a single result", "choose it, for example with `--emit mjcf`");
+  }
+  if (to_stdout && options.diagnostics != "text") {
+    return usage("`-o -` and `--diagnostics` both want standard output", "write to a folder");
+  }
+  const bool needs_spec = !options.schema && !options.reference && options.explain.empty();
+  if (needs_spec && options.request.file.empty()) {
+    return usage("SPEC is missing", "for example `sccompile models/quickstart.yaml -o out`");
+  }
+  return std::nullopt;
+}
+
+/// What is written on the command line and has no effect beside another flag is said.
+void warn_of_idle_flags(const CLI::App& app, const Options& options) {
+  const auto warn = [&app](const char* busy, std::initializer_list<const char*> idle) {
+    for (const char* name : idle)
+      if (app.get_option(name)->count() > 0)
+        complain(fmt::format("warning: `{}` has no effect with `{}`", name, busy));
+  };
+  if (options.check) warn("--check", {"-o", "--emit"});
+  for (const char* only : {"--schema", "--reference", "--explain"})
+    if (app.get_option(only)->count() > 0) warn(only, {"SPEC", "-o", "--emit", "--set", "--check"});
+}
+
+/// A document, for programs: its bytes reach them as they are.
+int print(const std::string& document) {
+  const std::string error = write_document(document);
+  if (error.empty()) return kExitDone;
+  complain(error);
+  return kExitInputOutput;
+}
+
+/// @return kExitDone, or kExitInputOutput when standard output is closed
+int report(const Diagnostics& diagnostics, const Options& options) {
+  if (options.diagnostics == "json") return print(to_json(diagnostics));
+  if (options.diagnostics == "sarif") return print(to_sarif(diagnostics));
+  write_standard_error(to_text(diagnostics, {wants_colour(STDERR_FILENO), options.max_errors}));
+  return kExitDone;
+}
+
+OutputFile result_of(const Bundle& bundle, const std::string& target) {
+  const std::string& name = bundle.model.name;
+  if (target == "mjcf") return {name + ".xml", bundle.mjcf};
+  if (target == "bsm") return {name + ".bsm.json", bundle.assembly_json};
+  if (target == "resolved") return {name + ".resolved.yaml", bundle.resolved_yaml};
+  return {name + ".dot", emit_dot(bundle.model)};
+}
+
+int write_results(const Bundle& bundle, const Options& options) {
+  int code = kExitDone;
+  std::vector<OutputFile> files;
+  for (const std::string& target : options.targets) {
+    OutputFile file = result_of(bundle, target);
+    if (target == "mjcf" && bundle.mjcf.empty()) {
+      complain(fmt::format("`{}` is not written: {}", file.path, bundle.model.mujoco_refusal));
+      code = kExitFindings;
+      continue;
+    }
+    if (options.folder == "-") return print(file.text);
+    file.path = (std::filesystem::path(options.folder) / file.path).string();
+    files.push_back(std::move(file));
+  }
+  const std::string error = write_files(files);
+  if (error.empty()) return code;
+  complain(error);
+  return kExitInputOutput;
+}
+
+/// Says what step the run would need, at the step that it has.
+void foresee(const CompileResult& result, Diagnostics& diagnostics) {
+  const Resolution foreseen = foresee_resolution(result.bundle->model);
+  if (foreseen.resolved) return;
+  diagnostics.warning(Code::kUnresolvedStep, result.step, foreseen.reasons.front());
+}
+
+int check(const Bundle& bundle, const Options& options) {
+  ProgressBar bar(stderr);
+  const bool is_watched = ::isatty(STDERR_FILENO) != 0;
+  const ProofReport proof = prove(bundle, [&bar, is_watched](double done) {
+    if (is_watched) bar.show("proof", done);
+  });
+  bar.clear();
+  if (options.diagnostics == "text") {
+    if (const int code = print(to_text(proof)); code != kExitDone) return code;
+  } else {
+    write_standard_error(to_text(proof));  // standard output is for one document
+  }
+  return proof.pass() ? kExitDone : kExitFindings;
+}
+
+int run(const Options& options) {
+  if (options.schema) return print(json_schema());
+  if (options.reference) return print(reference_markdown());
+  if (!options.explain.empty()) return explain_code("sccompile", options.explain);
+
+  Sources sources;
+  Diagnostics diagnostics;
+  const CompileResult result = compile(options.request, sources, diagnostics);
+  if (!result.io_error.empty()) {
+    complain(result.io_error);
+    return kExitInputOutput;
+  }
+  if (options.check && result.bundle) foresee(result, diagnostics);
+  judge_warnings(options.warnings, diagnostics);
+  if (const int code = report(diagnostics, options); code != kExitDone) return code;
+  if (result.bad_override) return kExitUsage;
+  if (!result.bundle || diagnostics.has_errors()) return kExitFindings;
+  return options.check ? check(*result.bundle, options) : write_results(*result.bundle, options);
+}
+
+int parse_and_run(int argc, char** argv) {
+  CLI::App app{"Compiles a spacecraft spec into an effector assembly and MJCF.", "sccompile"};
+  Options options;
+  describe(app, options);
+  if (const std::optional<int> code = parse_command_line(app, argc, argv)) return *code;
+  if (const std::optional<int> code = refuse_bad_values(options)) return *code;
+  warn_of_idle_flags(app, options);
+  return run(options);
+}
+
+}  // namespace
+}  // namespace twincraft
+
+int main(int argc, char** argv) {
+  return twincraft::run_program("sccompile", [=] { return twincraft::parse_and_run(argc, argv); });
+}
