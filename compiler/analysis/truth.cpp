@@ -6,6 +6,7 @@
 #include <array>
 
 #include "compiler/analysis/configuration.h"
+#include "compiler/ir/inputs.h"
 
 namespace twincraft {
 namespace {
@@ -17,10 +18,6 @@ constexpr double kParallel = 1.0e-12;
 
 bool is_parallel(const Vector3d& vector, const Vector3d& axis) {
   return vector.cross(axis).norm() <= kParallel * vector.norm();
-}
-
-Vector3d at(const std::array<Schedule, 3>& vector, double time) {
-  return {vector[0].at(time), vector[1].at(time), vector[2].at(time)};
 }
 
 /// Where in the hub every element with mass is, in both halves; false when one can move. A wheel on
@@ -49,11 +46,8 @@ bool collect_fixed(const Model& model, std::vector<Vector3d>& positions) {
 
 /// Is any force of `load` not zero at some time in [0, duration)?
 bool pushes(const Load& load, double duration) {
-  return std::any_of(load.force_L.begin(), load.force_L.end(), [duration](const Schedule& force) {
-    if (force.at(0.0) != 0.0) return true;
-    const std::vector<double> times = event_times({&force}, duration);
-    return std::any_of(times.begin(), times.end(),
-                       [&force](double time) { return force.at(time) != 0.0; });
+  return std::ranges::any_of(load.force_L, [duration](const Schedule& force) {
+    return !force.during({{0.0, duration}}).is_zero();
   });
 }
 
@@ -188,28 +182,26 @@ MassProperties hub_properties(const Model& model, double time) {
 }
 
 Vector3d load_force(const Model& model, double time) {
+  const Inputs inputs = inputs_at(model, time);
   Vector3d force = Vector3d::Zero();
-  for (const Load& load : model.loads) force += at(load.force_L, time);
+  for (int load = 0; load < inputs.layout.loads; ++load)
+    force += inputs.vector(inputs.layout.force(load));
   return force;
 }
 
 Vector3d load_torque(const Model& model, double time, const Vector3d& r_CB_B) {
+  const Inputs inputs = inputs_at(model, time);
   Vector3d torque = Vector3d::Zero();
-  for (const Load& load : model.loads) {
-    torque += at(load.torque_L, time);
-    if (load.r_FL_L) torque += (*load.r_FL_L - r_CB_B).cross(at(load.force_L, time));
+  for (int i = 0; i < inputs.layout.loads; ++i) {
+    const std::optional<Vector3d>& r_FB_B = model.loads[static_cast<std::size_t>(i)].r_FL_L;
+    torque += inputs.vector(inputs.layout.torque(i));
+    if (r_FB_B) torque += (*r_FB_B - r_CB_B).cross(inputs.vector(inputs.layout.force(i)));
   }
   return torque;
 }
 
 std::vector<double> phases(const Model& model) {
-  std::vector<const Schedule*> schedules;
-  for (const Load& load : model.loads) {
-    for (const Schedule& force : load.force_L) schedules.push_back(&force);
-    for (const Schedule& torque : load.torque_L) schedules.push_back(&torque);
-  }
-  for (const Tank& tank : model.tanks) schedules.push_back(&tank.mass_flow);
-  std::vector<double> times = event_times(schedules, model.simulation.duration);
+  std::vector<double> times = input_events(model);
   times.insert(times.begin(), 0.0);
   times.push_back(model.simulation.duration);
   return times;

@@ -30,7 +30,7 @@ Vector3d load_force(const Model& model, double time);
 /// Their torque about C [N m], hub axes.  @param r_CB_B  [m]
 Vector3d load_torque(const Model& model, double time, const Vector3d& r_CB_B);
 
-/// 0, the times [s] before the end at which a load or the flow out of a tank changes, and the end.
+/// 0, the times [s] before the end at which an input changes, and the end.
 std::vector<double> phases(const Model& model);
 
 }  // namespace twincraft

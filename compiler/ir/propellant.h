@@ -5,6 +5,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,27 @@ inline constexpr double kStandardGravity = 9.80665;  // [m/s^2]
 /// with the velocity it has there. kJet: it flows to the nozzle and leaves with the nozzle's
 /// velocity (runtime/forces/jet.h).
 enum class LeavingMomentum { kNone, kJet };
+
+/// A tank that has run down at steady flows, one after another.
+struct Drain {
+  double full = 0.0;   // [kg] at t = 0
+  double spent = 0.0;  // [kg] until `since`
+  double since = 0.0;  // [s] never before t = 0: nothing flows earlier
+  double flow = 0.0;   // [kg/s] from then on
+
+  double content(double time) const { return full - spent_at(time); }  // [kg]
+  double share(double time) const { return content(time) / full; }     // of what it held
+  double share_rate() const { return -flow / full; }                   // [1/s]
+  /// Another flow from `time` [s] on. @pre not before `since`, unless both are before t = 0
+  void change(double time, double to) {
+    spent = spent_at(time);
+    since = std::max(time, 0.0);
+    flow = to;
+  }
+
+ private:
+  double spent_at(double time) const { return spent + flow * std::max(time - since, 0.0); }
+};
 
 struct Tank {
   std::string name;

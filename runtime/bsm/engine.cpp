@@ -39,7 +39,7 @@ class BsmEngine final : public Engine {
                         model.engines.chains)),
         kernel_(make_kernel(plan_, set)) {
     if (!jets_.is_absent()) kernel_ = with_jets(std::move(kernel_), plan_, jets_);
-    hold_inputs(0.0);
+    BsmEngine::hold(inputs_at(model, 0.0));
   }
 
   std::string_view name() const override { return "bsm"; }
@@ -47,16 +47,16 @@ class BsmEngine final : public Engine {
 
   Eigen::VectorXd initial_state() const override { return pack(initial_, layout_); }
 
-  void hold_inputs(double time) override {
-    held_.set(assembly_, loads_, time);
-    forces_.hold(time);
-    propellant_.hold(time);
-    jets_.hold(time);
+  void hold(const Inputs& inputs) override {
+    held_.set(inputs, loads_);
+    forces_.hold(inputs);
+    propellant_.hold(inputs);
+    jets_.hold(inputs);
     const Plan* plan = &plan_;
     const HeldInputs* held = &held_;
     kernel_->hold({&plan, 1}, {&held, 1});
     drained_to_ = std::numeric_limits<double>::quiet_NaN();
-    drain(time);
+    drain(inputs.since);
   }
 
   void derivative(double time, std::span<const double> state, std::span<double> rate) override {

@@ -271,23 +271,18 @@ HeldInputs HeldInputs::none(const Assembly& assembly) {
           false};
 }
 
-void HeldInputs::set(const Assembly& assembly, std::span<const Load> loads, double time) {
-  for (std::size_t i = 0; i < effort.size(); ++i) {
-    effort[i] = assembly.links[i + 1].joint.effort.at(time);
-  }
-  for (std::size_t k = 0; k < motor_torque.size(); ++k) {
-    motor_torque[k] = assembly.rotors[k].torque.at(time);
-  }
-  for (std::vector<Vector3d>* all : {&force_L, &torque_L, &force_at_center_L}) {
-    std::fill(all->begin(), all->end(), Vector3d::Zero());
-  }
+void HeldInputs::set(const Inputs& inputs, std::span<const Load> loads) {
+  const InputLayout& at = inputs.layout;
+  std::copy_n(inputs.u.begin() + at.effort(0), effort.size(), effort.begin());
+  std::copy_n(inputs.u.begin() + at.motor_torque(0), motor_torque.size(), motor_torque.begin());
+  for (std::vector<Vector3d>* all : {&force_L, &torque_L, &force_at_center_L})
+    std::ranges::fill(*all, Vector3d::Zero());
   acts_at_center = false;
-  for (const Load& load : loads) {
+  for (std::size_t i = 0; i < loads.size(); ++i) {
+    const Load& load = loads[i];
     const auto link = static_cast<std::size_t>(load.link);
-    const Vector3d force(load.force_L[0].at(time), load.force_L[1].at(time),
-                         load.force_L[2].at(time));
-    torque_L[link] +=
-        Vector3d(load.torque_L[0].at(time), load.torque_L[1].at(time), load.torque_L[2].at(time));
+    const Vector3d force = inputs.vector(at.force(static_cast<int>(i)));
+    torque_L[link] += inputs.vector(at.torque(static_cast<int>(i)));
     if (load.r_FL_L) {
       force_L[link] += force;
       torque_L[link] += load.r_FL_L->cross(force);

@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "compiler/ir/inputs.h"
 #include "compiler/ir/model.h"
 #include "runtime/bsm/tree.h"
 
@@ -91,8 +92,8 @@ struct HeldInputs {
   bool acts_at_center = false;
 
   static HeldInputs none(const Assembly& assembly);
-  /// At their values of `time` [s]. No allocation.
-  void set(const Assembly& assembly, std::span<const Load> loads, double time);
+  /// @param loads  of the model the inputs are of. No allocation.
+  void set(const Inputs& inputs, std::span<const Load> loads);
 };
 
 }  // namespace twincraft::bsm

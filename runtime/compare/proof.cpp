@@ -39,12 +39,12 @@ struct Answer {
   RoundingTerms terms;
 };
 
-Answer ask(Engine& engine, const RandomState& state) {
+Answer ask(Engine& engine, const RandomState& state, InputFeed& feed) {
   const StateLayout& layout = engine.layout();
   const VectorXd y = pack(state, layout);
   VectorXd rate(layout.size());
   const std::span<const double> view(y.data(), static_cast<std::size_t>(y.size()));
-  engine.hold_inputs(state.time);
+  engine.hold(feed.begin(state.time));
   engine.derivative(state.time, view, {rate.data(), view.size()});
   return {engine.mass_matrix(view), accelerations_of(rate, layout), engine.rounding_terms(view)};
 }
@@ -100,9 +100,9 @@ void compare_mass_properties(const Answer& a, const Answer& b, ProofReport& repo
 }
 
 /// Both engines must show the very coordinates the state was made of, in the model's order.
-double mapping_difference(Engine& engine, const RandomState& state) {
+double mapping_difference(Engine& engine, const RandomState& state, InputFeed& feed) {
   const VectorXd y = pack(state, engine.layout());
-  engine.hold_inputs(state.time);
+  engine.hold(feed.begin(state.time));
   const Observation seen =
       engine.observe(state.time, {y.data(), static_cast<std::size_t>(y.size())});
   double worst = 0.0;
@@ -172,12 +172,12 @@ void compare_mass_matrices(const Answer& a, const Answer& b, std::size_t state, 
 /// rounding may do to them is found again for the states that need it.
 class StateComparison {
  public:
-  StateComparison(Engine& a, Engine& b, std::vector<RandomState> states,
+  StateComparison(Engine& a, Engine& b, InputFeed& feed, std::vector<RandomState> states,
                   const ProofProgress& progress)
-      : a_(a), b_(b), states_(std::move(states)), allowances_(states_.size()) {
+      : a_(a), b_(b), feed_(feed), states_(std::move(states)), allowances_(states_.size()) {
     for (std::size_t i = 0; i < states_.size(); ++i) {
       if (progress) progress(static_cast<double>(i) / static_cast<double>(states_.size()));
-      const Answer of_a = ask(a_, states_[i]), of_b = ask(b_, states_[i]);
+      const Answer of_a = ask(a_, states_[i], feed_), of_b = ask(b_, states_[i], feed_);
       compare_mass_matrices(of_a, of_b, i, mass_matrix_);
       accelerations_.push_back({of_a.acceleration, of_b.acceleration});
     }
@@ -209,12 +209,14 @@ class StateComparison {
   const VectorXd& allowance(std::size_t state) {
     VectorXd& known = allowances_[state];
     if (known.size() == 0)
-      known = acceleration_allowance(ask(a_, states_[state]), ask(b_, states_[state]));
+      known =
+          acceleration_allowance(ask(a_, states_[state], feed_), ask(b_, states_[state], feed_));
     return known;
   }
 
   Engine& a_;
   Engine& b_;
+  InputFeed& feed_;
   std::vector<RandomState> states_;
   std::vector<std::array<VectorXd, 2>> accelerations_;
   std::vector<VectorXd> allowances_;  // empty: not asked for
@@ -247,19 +249,20 @@ ProofReport prove(const Model& model, Engine& a, Engine& b, const ProofProgress&
   ProofReport report;
   report.remarks = deliberate_mismatches(model);
   if (!same_coordinates(model, a, b, report)) return report;
-  a.hold_inputs(0.0);
-  b.hold_inputs(0.0);
+  InputFeed feed(model);
+  a.hold(feed.begin(0.0));
+  b.hold(feed.begin(0.0));
   for (ProofLine& line : compare_held(model.assembly, a.held(), b.held()))
     report.lines.push_back(std::move(line));
   std::vector<RandomState> states = random_states(model, kProofStates);
-  report.lines.push_back(
-      {"coordinate mapping",
-       std::max(mapping_difference(a, states.front()), mapping_difference(b, states.front())),
-       {}});
+  report.lines.push_back({"coordinate mapping",
+                          std::max(mapping_difference(a, states.front(), feed),
+                                   mapping_difference(b, states.front(), feed)),
+                          {}});
   const RandomState start = undisturbed(model);
-  const Answer start_a = ask(a, start);
-  compare_mass_properties(start_a, ask(b, start), report);
-  StateComparison comparison(a, b, std::move(states), progress);
+  const Answer start_a = ask(a, start, feed);
+  compare_mass_properties(start_a, ask(b, start, feed), report);
+  StateComparison comparison(a, b, feed, std::move(states), progress);
   report.lines.push_back(comparison.mass_matrix());
   for (const AccelerationBlock& block : blocks_of(model, start_a.mass_matrix))
     report.lines.push_back(comparison.compare(block));

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "compiler/ir/inputs.h"
 #include "runtime/engine/held.h"
 #include "runtime/engine/observation.h"
 #include "runtime/engine/state.h"
@@ -28,9 +29,9 @@ class Engine {
   /// The state of the model at t = 0.
   virtual Eigen::VectorXd initial_state() const = 0;
 
-  /// Hold all scheduled inputs (efforts, motors, loads) at their values of `time` [s] until the
-  /// next call. The propagator calls it at t = 0 and at every event.
-  virtual void hold_inputs(double time) = 0;
+  /// Everything that acts by schedule, from now on until the next call: at t = 0 and at every
+  /// event. An engine is built with the inputs of t = 0.
+  virtual void hold(const Inputs& inputs) = 0;
 
   /// rate = d(state)/dt at `time`. Both have layout().size() entries and do not overlap.
   virtual void derivative(double time, std::span<const double> state, std::span<double> rate) = 0;

@@ -11,10 +11,6 @@ bool is_per_body(GravityLaw law) {
   return law == GravityLaw::kBodyCom || law == GravityLaw::kBodyGradient;
 }
 
-Vector3d value_at(const std::array<Schedule, 3>& schedules, double time) {
-  return {schedules[0].at(time), schedules[1].at(time), schedules[2].at(time)};
-}
-
 }  // namespace
 
 Vector3d point_gravity(double mu, const Vector3d& r) {
@@ -63,13 +59,15 @@ ForceModel::ForceModel(const Model& model, GravityLaw law,
       law != GravityLaw::kNone ||
       std::any_of(loads_.begin(), loads_.end(), [](const Load& load) { return !load.r_FL_L; });
   acting_loads_.reserve(loads_.size());
-  hold(0.0);
+  hold(inputs_at(model, 0.0));
 }
 
-void ForceModel::hold(double time) {
+void ForceModel::hold(const Inputs& inputs) {
   acting_loads_.clear();
-  for (const Load& load : loads_) {
-    const Vector3d force_L = value_at(load.force_L, time), torque_L = value_at(load.torque_L, time);
+  for (std::size_t i = 0; i < loads_.size(); ++i) {
+    const Load& load = loads_[i];
+    const Vector3d force_L = inputs.vector(inputs.layout.force(static_cast<int>(i)));
+    const Vector3d torque_L = inputs.vector(inputs.layout.torque(static_cast<int>(i)));
     const bool pushes = !force_L.isZero(0.0);
     if (!pushes && torque_L.isZero(0.0)) continue;
     acting_loads_.push_back({load.link, pushes, !load.r_FL_L.has_value(), force_L, torque_L,

@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "compiler/ir/inputs.h"
 #include "compiler/ir/model.h"
 
 namespace twincraft {
@@ -44,8 +45,7 @@ class ForceModel {
   ForceModel(const Model& model, GravityLaw law,
              const std::vector<std::vector<MassElement>>& elements, FieldFrame frame);
 
-  /// Hold the loads at their values of `time` [s].
-  void hold(double time);
+  void hold(const Inputs& inputs);
 
   /// Let elements of tanks have these parts of their mass and inertia; one share per tank.
   void set_shares(std::span<const double> shares);

@@ -36,14 +36,14 @@ JetModel::JetModel(const Model& model) {
     }
   }
   links_.assign(links.begin(), links.end());
-  hold(0.0);
+  hold(inputs_at(model, 0.0));
 }
 
-void JetModel::hold(double time) {
+void JetModel::hold(const Inputs& inputs) {
   acts_ = false;
-  for (Outlet& outlet : nozzles_) {
-    outlet.flow = outlet.nozzle.mass_flow.at(time);
-    acts_ = acts_ || outlet.flow > 0.0;
+  for (std::size_t i = 0; i < nozzles_.size(); ++i) {
+    nozzles_[i].flow = inputs[inputs.layout.nozzle_flow(static_cast<int>(i))];
+    acts_ = acts_ || nozzles_[i].flow > 0.0;
   }
 }
 

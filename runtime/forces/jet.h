@@ -22,6 +22,7 @@
 #include <span>
 #include <vector>
 
+#include "compiler/ir/inputs.h"
 #include "runtime/forces/forces.h"
 
 namespace twincraft {
@@ -36,8 +37,7 @@ class JetModel {
   /// What may feel something: the links of nozzles and of what drains, parents before children.
   const std::vector<int>& links() const { return links_; }
 
-  /// Hold the flows at their values of `time` [s].
-  void hold(double time);
+  void hold(const Inputs& inputs);
 
   /// Something flows.
   bool acts() const { return acts_; }

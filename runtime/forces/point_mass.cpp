@@ -27,18 +27,16 @@ Input velocity(std::span<const double> state) {
 }  // namespace
 
 PointMassEngine::PointMassEngine(const Model& model, GravityLaw law)
-    : loads_(model.loads),
-      initial_(model.initial),
+    : initial_(model.initial),
       mu_(law == GravityLaw::kNone ? 0.0 : model.gravity.mu),
       r_CB_N_(center_of_mass(model)) {
-  PointMassEngine::hold_inputs(0.0);
+  PointMassEngine::hold(inputs_at(model, 0.0));
 }
 
-void PointMassEngine::hold_inputs(double time) {
+void PointMassEngine::hold(const Inputs& inputs) {
   force_N_.setZero();
-  for (const Load& load : loads_) {
-    for (int i = 0; i < 3; ++i) force_N_[i] += load.force_L[static_cast<std::size_t>(i)].at(time);
-  }
+  for (int load = 0; load < inputs.layout.loads; ++load)
+    force_N_ += inputs.vector(inputs.layout.force(load));
 }
 
 void PointMassEngine::derivative(double, std::span<const double> state, std::span<double> rate) {

@@ -12,7 +12,7 @@ class PointMassEngine : public Engine {
  public:
   const StateLayout& layout() const override { return layout_; }
   Eigen::VectorXd initial_state() const override { return pack(initial_, layout_); }
-  void hold_inputs(double time) override;
+  void hold(const Inputs& inputs) override;
   void derivative(double time, std::span<const double> state, std::span<double> rate) override;
   void finish_step(std::span<double>) override {}
   Observation observe(double time, std::span<const double> state) override;
@@ -29,7 +29,6 @@ class PointMassEngine : public Engine {
   const Vector3d& held_force_N() const { return force_N_; }  // [N] of all loads
 
  private:
-  std::vector<Load> loads_;
   VehicleState initial_;
   double mu_;        // [m^3/s^2] zero without gravity
   Vector3d r_CB_N_;  // [m] where in the hub the mass is

@@ -2,20 +2,21 @@
 #include "runtime/forces/propellant_ledger.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace twincraft {
 
-PropellantLedger::PropellantLedger(std::vector<Tank> tanks)
-    : tanks_(std::move(tanks)),
-      shares_(tanks_.size(), 1.0),
-      share_rates_(tanks_.size(), 0.0),
+PropellantLedger::PropellantLedger(const std::vector<Tank>& tanks)
+    : shares_(tanks.size(), 1.0),
+      share_rates_(tanks.size(), 0.0),
       is_idle_(
-          std::ranges::all_of(tanks_, [](const Tank& tank) { return tank.mass_flow.is_zero(); })) {}
+          std::ranges::all_of(tanks, [](const Tank& tank) { return tank.mass_flow.is_zero(); })) {
+  for (const Tank& tank : tanks) tanks_.push_back({.full = tank.content});
+}
 
-void PropellantLedger::hold(double time) {
+void PropellantLedger::hold(const Inputs& inputs) {
   for (std::size_t k = 0; k < tanks_.size(); ++k) {
-    share_rates_[k] = -tanks_[k].mass_flow.at(time) / tanks_[k].content;
+    tanks_[k] = inputs.tanks[k];
+    share_rates_[k] = tanks_[k].share_rate();
   }
 }
 

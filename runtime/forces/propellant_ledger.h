@@ -6,19 +6,18 @@
 #include <span>
 #include <vector>
 
-#include "compiler/ir/propellant.h"
+#include "compiler/ir/inputs.h"
 
 namespace twincraft {
 
 class PropellantLedger {
  public:
-  explicit PropellantLedger(std::vector<Tank> tanks);
+  explicit PropellantLedger(const std::vector<Tank>& tanks);
 
   /// Nothing ever flows: all shares stay 1.
   bool is_idle() const { return is_idle_; }
 
-  /// Hold the flows at their values of `time` [s].
-  void hold(double time);
+  void hold(const Inputs& inputs);
 
   /// Of every tank: what is left at `time`, as a part of what it held at t = 0. No allocation.
   std::span<const double> shares(double time);
@@ -27,7 +26,7 @@ class PropellantLedger {
   std::span<const double> share_rates() const { return share_rates_; }
 
  private:
-  std::vector<Tank> tanks_;
+  std::vector<Drain> tanks_;
   std::vector<double> shares_, share_rates_;
   bool is_idle_;
 };

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "compiler/ir/events.h"
+#include "compiler/ir/inputs.h"
 #include "runtime/integrate/tableau.h"
 #include "runtime/linear/linearise.h"
 

@@ -59,7 +59,8 @@ int leading_entry(const OwnMotion& motion, const Eigen::VectorXcd& shape, double
 }  // namespace
 
 OwnMotion::OwnMotion(const Model& model)
-    : engine_(make_bsm_engine(in_deep_space(model))),
+    : feed_(model),
+      engine_(make_bsm_engine(in_deep_space(model))),
       joints_(engine_->layout().joints),
       wheels_(engine_->layout().wheels),
       coordinates_(coordinates_of(model, joints_, wheels_)),
@@ -80,13 +81,13 @@ Eigen::VectorXd OwnMotion::reduced(double time, const Eigen::VectorXd& state) {
   return rates;
 }
 
-Eigen::VectorXd OwnMotion::rates(const Observation& seen, double inputs_at) {
-  engine_->hold_inputs(inputs_at);
+Eigen::VectorXd OwnMotion::rates(const Observation& seen, double held_at) {
+  engine_->hold(feed_.begin(held_at));
   return reduced(seen.time, pack(seen, engine_->layout()));
 }
 
-Eigen::MatrixXd OwnMotion::jacobian(const Observation& seen, double inputs_at) {
-  engine_->hold_inputs(inputs_at);
+Eigen::MatrixXd OwnMotion::jacobian(const Observation& seen, double held_at) {
+  engine_->hold(feed_.begin(held_at));
   Eigen::VectorXd state = pack(seen, engine_->layout());
   Eigen::MatrixXd A(size(), size());
   for (int entry = 0; entry < size(); ++entry) {

@@ -31,6 +31,7 @@ struct Mode {
 /// Derivatives of one model without gravity, in the quaternion chart, at states that were observed.
 class OwnMotion {
  public:
+  /// @param model  outlives it
   explicit OwnMotion(const Model& model);
 
   int joints() const { return joints_; }
@@ -43,16 +44,17 @@ class OwnMotion {
     return coordinates_[static_cast<std::size_t>(entry)];
   }
 
-  /// x' at the state of `seen`, with the inputs of `inputs_at` [s].
-  Eigen::VectorXd rates(const Observation& seen, double inputs_at);
+  /// x' at the state of `seen`, with the inputs of `held_at` [s].
+  Eigen::VectorXd rates(const Observation& seen, double held_at);
 
-  /// A at the state of `seen`, with the inputs of `inputs_at` [s].
-  Eigen::MatrixXd jacobian(const Observation& seen, double inputs_at);
+  /// A at the state of `seen`, with the inputs of `held_at` [s].
+  Eigen::MatrixXd jacobian(const Observation& seen, double held_at);
 
  private:
   Eigen::VectorXd reduced(double time, const Eigen::VectorXd& state);
   int state_entry(int entry) const;
 
+  InputFeed feed_;
   std::unique_ptr<Engine> engine_;
   int joints_, wheels_;
   std::vector<std::string> coordinates_;

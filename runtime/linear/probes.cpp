@@ -27,28 +27,14 @@ double difference(double a, double b) {
 
 }  // namespace
 
-class Prober::Ode final : public twincraft::Ode {
- public:
-  explicit Ode(Engine& engine) : engine_(engine) {}
-  int size() const override { return engine_.layout().size(); }
-  void derivative(double time, std::span<const double> state, std::span<double> rate) override {
-    engine_.derivative(time, state, rate);
-  }
-  void finish_step(std::span<double> state) override { engine_.finish_step(state); }
-
- private:
-  Engine& engine_;
-};
-
 Prober::Prober(const Model& model)
-    : engine_(make_bsm_engine(in_quaternions(model))),
-      ode_(std::make_unique<Ode>(*engine_)),
-      stepper_(tableau_of(model.simulation.method), *ode_) {
+    : feed_(model),
+      engine_(make_bsm_engine(in_quaternions(model))),
+      ode_(*engine_),
+      stepper_(tableau_of(model.simulation.method), ode_) {
   const double gain = std::pow(2.0, stepper_.tableau().order);
   factor_ = gain / (gain - 1.0);
 }
-
-Prober::~Prober() = default;
 
 Observation Prober::stepped(const Observation& seen, double h, int steps) {
   const Eigen::VectorXd state = pack(seen, engine_->layout());
@@ -58,7 +44,7 @@ Observation Prober::stepped(const Observation& seen, double h, int steps) {
 }
 
 LocalError Prober::probe(const Observation& seen, double h) {
-  engine_->hold_inputs(seen.time);
+  engine_->hold(feed_.begin(seen.time));
   const Observation whole = stepped(seen, h, 1);
   const Observation halves = stepped(seen, 0.5 * h, 2);
   LocalError error;

@@ -8,7 +8,7 @@
 
 #include "compiler/ir/model.h"
 #include "runtime/engine/engine.h"
-#include "runtime/integrate/runge_kutta.h"
+#include "runtime/integrate/engine_ode.h"
 
 namespace twincraft {
 
@@ -21,20 +21,20 @@ struct LocalError {
 
 class Prober {
  public:
+  /// @param model  outlives it
   explicit Prober(const Model& model);
-  ~Prober();
 
   /// Of one step of `h` [s] from the state of `seen`, with its inputs. Not finite when the step is
   /// far too long.
   LocalError probe(const Observation& seen, double h);
 
  private:
-  class Ode;
   Observation stepped(const Observation& seen, double h, int steps);
 
   double factor_;  // of the difference of one step and two half steps
+  InputFeed feed_;
   std::unique_ptr<Engine> engine_;
-  std::unique_ptr<Ode> ode_;
+  EngineOde ode_;
   RungeKutta stepper_;
 };
 

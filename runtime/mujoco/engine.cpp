@@ -70,7 +70,7 @@ class MujocoEngine final : public Engine {
   std::string_view name() const override { return "mujoco"; }
   const StateLayout& layout() const override { return exchange_.layout(); }
   Eigen::VectorXd initial_state() const override { return pack(initial_, layout()); }
-  void hold_inputs(double time) override;
+  void hold(const Inputs& inputs) override;
   void derivative(double time, std::span<const double> state, std::span<double> rate) override;
   void finish_step(std::span<double> state) override;
   Observation observe(double time, std::span<const double> state) override;
@@ -108,7 +108,7 @@ class MujocoEngine final : public Engine {
   WrenchProjector projector_;
   ForceModel forces_;
   JetModel jets_;
-  std::vector<double> inputs_;   // held efforts and motor torques, per MuJoCo dof
+  std::vector<double> held_;     // held efforts and motor torques, per MuJoCo dof
   std::vector<double> applied_;  // inputs and projected wrenches
   std::vector<LinkPose> poses_;
   std::vector<Wrench> wrenches_;
@@ -131,27 +131,25 @@ MujocoEngine::MujocoEngine(const Model& model, const std::string& mjcf)
       projector_(*model_, map_),
       forces_(model, law_, gravity_elements(model), field_frame(model.engines.frame)),
       jets_(model),
-      inputs_(static_cast<std::size_t>(model_->nv)),
-      applied_(inputs_.size()),
+      held_(static_cast<std::size_t>(model_->nv)),
+      applied_(held_.size()),
       poses_(model.assembly.links.size()),
       wrenches_(poses_.size()),
       link_rates_(poses_.size()) {
-  hold_inputs(0.0);
+  MujocoEngine::hold(inputs_at(model, 0.0));
 }
 
-void MujocoEngine::hold_inputs(double time) {
-  double* inputs = inputs_.data();
-  for (std::size_t i = 0; i < map_.joint_dof.size(); ++i) {
-    inputs[map_.joint_dof[i]] = assembly_.links[i + 1].joint.effort.at(time);
-  }
-  for (std::size_t i = 0; i < map_.wheel_dof.size(); ++i) {
-    inputs[map_.wheel_dof[i]] = assembly_.rotors[i].torque.at(time);
-  }
-  forces_.hold(time);
-  propellant_.hold(time);
-  jets_.hold(time);
+void MujocoEngine::hold(const Inputs& inputs) {
+  double* held = held_.data();
+  for (std::size_t i = 0; i < map_.joint_dof.size(); ++i)
+    held[map_.joint_dof[i]] = inputs[inputs.layout.effort(static_cast<int>(i))];
+  for (std::size_t i = 0; i < map_.wheel_dof.size(); ++i)
+    held[map_.wheel_dof[i]] = inputs[inputs.layout.motor_torque(static_cast<int>(i))];
+  forces_.hold(inputs);
+  propellant_.hold(inputs);
+  jets_.hold(inputs);
   drained_to_ = std::numeric_limits<double>::quiet_NaN();
-  drain(time);
+  drain(inputs.since);
 }
 
 void MujocoEngine::drain(double time) {
@@ -174,7 +172,7 @@ void MujocoEngine::derivative(double time, std::span<const double> state, std::s
   align_round_wheels(round_wheels_, *d);
   mj_comPos(m, d);
   mj_comVel(m, d);
-  const double* applied = inputs_.data();
+  const double* applied = held_.data();
   Vector3d fall_N = Vector3d::Zero();
   if (law_ != GravityLaw::kNone || !forces_.is_idle()) {
     fall_N = project_forces(Input(state.data() + StateLayout::position()), dcm_NW);
@@ -227,7 +225,7 @@ void MujocoEngine::gather_poses() {
 // Sets applied_. @return the common acceleration of the falling frame, in N
 Vector3d MujocoEngine::project_forces(const Vector3d& r_BN_N, const Matrix3d& dcm_NW) {
   gather_poses();
-  std::copy(inputs_.begin(), inputs_.end(), applied_.begin());
+  std::copy(held_.begin(), held_.end(), applied_.begin());
   if (!forces_.is_idle()) {
     forces_.apply(dcm_NW.transpose() * r_BN_N, poses_, wrenches_);
     // A nozzle flows only while its thrust acts, so here alone.
@@ -333,7 +331,7 @@ void MujocoEngine::gather_jet_rates() {
 double MujocoEngine::joint_power() const {
   double power = -passive_.damper_power(*data_);
   for (int i = kHubDofs; i < model_->nv; ++i) {
-    power += inputs_[static_cast<std::size_t>(i)] * data_->qvel[i];
+    power += held_[static_cast<std::size_t>(i)] * data_->qvel[i];
   }
   return power;
 }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "compiler/ir/inputs.h"
+
 namespace twincraft {
 
 Rocket::Rocket(const Model& model) {
@@ -12,7 +14,7 @@ Rocket::Rocket(const Model& model) {
     Phase phase;
     phase.start = times[i];
     phase.mass = hub_properties(model, phase.start).mass;
-    for (const Tank& tank : model.tanks) phase.flow += tank.mass_flow.at(phase.start);
+    for (const Drain& tank : inputs_at(model, phase.start).tanks) phase.flow += tank.flow;
     phase.force_B = load_force(model, phase.start);
     if (i > 0) phase.before = after(phases_.back(), phase.start);
     phases_.push_back(phase);

@@ -11,26 +11,14 @@
 #include <limits>
 #include <utility>
 
-#include "compiler/ir/events.h"
+#include "compiler/ir/inputs.h"
 #include "compiler/ir/number.h"
+#include "runtime/integrate/engine_ode.h"
 #include "runtime/integrate/landings.h"
 #include "runtime/reference/stored.h"
 
 namespace twincraft {
 namespace {
-
-class EngineOde : public Ode {
- public:
-  explicit EngineOde(Engine& engine) : engine_(engine) {}
-  int size() const override { return engine_.layout().size(); }
-  void derivative(double time, std::span<const double> state, std::span<double> rate) override {
-    engine_.derivative(time, state, rate);
-  }
-  void finish_step(std::span<double> state) override { engine_.finish_step(state); }
-
- private:
-  Engine& engine_;
-};
 
 // The books are quadratures appended behind the state: nothing reads them back.
 constexpr std::size_t kBooks = 8;
@@ -140,8 +128,9 @@ class Run {
         stepper_(tableau_of(model.simulation.method), is_adaptive(model) ? excusing_ : ode),
         names_(state_names(model, engine.layout())),
         control_(engine.layout(), model.simulation.tolerance, names_),
-        landings_(model.simulation.step, model.simulation.duration, events_of(model)) {
-    engine.hold_inputs(0.0);
+        landings_(model.simulation.step, model.simulation.duration, events_of(model)),
+        feed_(model) {
+    engine.hold(feed_.begin(0.0));
     const Eigen::VectorXd initial = engine.initial_state();
     std::copy(initial.begin(), initial.end(), stepper_.state().begin());
   }
@@ -166,7 +155,7 @@ class Run {
       if (!stepper_.state_is_finite()) fail();
       time_ = landing.time;
     }
-    if (landing.is_event) engine_.hold_inputs(landing.time);
+    if (landing.is_event) engine_.hold(feed_.begin(landing.time));
   }
 
  private:
@@ -191,6 +180,7 @@ class Run {
   std::vector<std::string> names_;
   StepControl control_;
   Landings landings_;
+  InputFeed feed_;
   double time_ = 0.0;
   StepCounts counts_;
   AcceptedErrors accepted_;

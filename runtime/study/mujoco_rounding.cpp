@@ -30,14 +30,16 @@ class Prediction {
       : model_(bundle.model),
         subject_(subject),
         duration_(duration),
+        feed_(bundle.model),
         bsm_(make_bsm_engine(bundle.model)),
         mujoco_(make_mujoco_engine(bundle.model, bundle.mjcf)) {}
 
   double at(const Observation& seen) {
     const Eigen::VectorXd x = pack(seen, bsm_->layout());
     const Eigen::VectorXd y = pack(seen, mujoco_->layout());
-    bsm_->hold_inputs(seen.time);
-    mujoco_->hold_inputs(seen.time);
+    const Inputs& inputs = feed_.begin(seen.time);
+    bsm_->hold(inputs);
+    mujoco_->hold(inputs);
     Eigen::VectorXd rate(x.size());
     bsm_->derivative(seen.time, view(x), {rate.data(), static_cast<std::size_t>(rate.size())});
     const Eigen::MatrixXd M = bsm_->mass_matrix(view(x));
@@ -53,6 +55,7 @@ class Prediction {
   const Model& model_;
   const Subject& subject_;
   double duration_;  // [s]
+  InputFeed feed_;
   std::unique_ptr<Engine> bsm_, mujoco_;
 };
 

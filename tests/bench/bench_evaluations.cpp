@@ -65,7 +65,7 @@ class Batch final : public Ode {
       : lanes_(bsm::batch_lanes(set)),
         plan_(bsm::make_plan(model.assembly, model.engines.attitude, model.gravity, model.loads)),
         held_(bsm::HeldInputs::none(model.assembly)) {
-    held_.set(model.assembly, model.loads, 0.0);
+    held_.set(inputs_at(model, 0.0), model.loads);
     const std::vector<const bsm::Plan*> plans(lanes_, &plan_);
     const std::vector<const bsm::HeldInputs*> held(lanes_, &held_);
     kernel_ = bsm::make_batch_kernel(plans, set);

@@ -36,11 +36,11 @@ std::span<const double> span_of(const Eigen::VectorXd& v) {
 }
 
 /// v_B, omega, joint rates and wheel rates differentiated, whatever the attitude chart.
-Eigen::VectorXd accelerations(Engine& engine, const RandomState& state) {
+Eigen::VectorXd accelerations(const Model& model, Engine& engine, const RandomState& state) {
   const StateLayout& at = engine.layout();
   const Eigen::VectorXd x = pack(state, at);
   Eigen::VectorXd rate(x.size());
-  engine.hold_inputs(state.time);
+  engine.hold(inputs_at(model, state.time));
   engine.derivative(state.time, span_of(x), {rate.data(), static_cast<std::size_t>(rate.size())});
   Eigen::VectorXd all(6 + at.joints + at.wheels);
   all << rate.segment<3>(StateLayout::velocity()), rate.segment<3>(at.rate()),
@@ -69,8 +69,8 @@ double spin_rounding(const Model& model, const RandomState& state) {
 /// Block by block, so that a large block hides no small one.
 void expect_same_accelerations(const Model& model, Engine& bsm, Engine& mujoco) {
   for (const RandomState& state : random_states(model, 200)) {
-    const Eigen::VectorXd a = accelerations(bsm, state);
-    const Eigen::VectorXd b = accelerations(mujoco, state);
+    const Eigen::VectorXd a = accelerations(model, bsm, state);
+    const Eigen::VectorXd b = accelerations(model, mujoco, state);
     const int joints = bsm.layout().joints, wheels = bsm.layout().wheels;
     EXPECT_LT((a - b).head<3>().norm(),
               1e-11 * b.head<3>().norm() + 2.0 * spin_rounding(model, state));
@@ -115,11 +115,12 @@ TEST_P(Battery, FeelsNothingOfACommonVelocityOrPlaceWithoutGravity) {
   const auto bsm = make_bsm_engine(free);
   const auto mujoco = make_mujoco_engine(free, bundle_.mjcf);
   for (RandomState state : random_states(free, 20)) {
-    const Eigen::VectorXd a = accelerations(*bsm, state), b = accelerations(*mujoco, state);
+    const Eigen::VectorXd a = accelerations(free, *bsm, state);
+    const Eigen::VectorXd b = accelerations(free, *mujoco, state);
     state.r_BN_N += Vector3d(7e6, -3e6, 1e6);
     state.v_BN_N += Vector3d(-2e3, 7e3, 1e3);
-    EXPECT_EQ(a, accelerations(*bsm, state));
-    EXPECT_EQ(b, accelerations(*mujoco, state));
+    EXPECT_EQ(a, accelerations(free, *bsm, state));
+    EXPECT_EQ(b, accelerations(free, *mujoco, state));
   }
 }
 
@@ -178,10 +179,12 @@ TEST_F(SameMachine, WrittenAsBodiesHasTheAccelerationsOfThePanels) {
   const auto a = make_bsm_engine(panels_.model), b = make_bsm_engine(bodies_.model);
   const auto c = make_mujoco_engine(bodies_.model, bodies_.mjcf);
   for (const RandomState& state : random_states(panels_.model, 50)) {
-    const Eigen::VectorXd of_panels = accelerations(*a, state);
+    const Eigen::VectorXd of_panels = accelerations(panels_.model, *a, state);
     // The same numbers by the same products: only rounding of the written decimals is left.
-    EXPECT_LT((accelerations(*b, state) - of_panels).norm(), 1e-14 * of_panels.norm());
-    EXPECT_LT((accelerations(*c, state) - of_panels).norm(), 1e-11 * of_panels.norm());
+    EXPECT_LT((accelerations(bodies_.model, *b, state) - of_panels).norm(),
+              1e-14 * of_panels.norm());
+    EXPECT_LT((accelerations(bodies_.model, *c, state) - of_panels).norm(),
+              1e-11 * of_panels.norm());
   }
 }
 
@@ -225,7 +228,7 @@ TEST_F(SameMachine, WrittenAsBodiesFliesAlikeByEitherPath) {
   const auto a = make_bsm_engine(general), b = make_bsm_engine(bodies_.model);
   const RandomState state = random_states(general, 1).front();
   // Rounded in another order: they are two paths, and one motion.
-  EXPECT_NE(accelerations(*a, state), accelerations(*b, state));
+  EXPECT_NE(accelerations(general, *a, state), accelerations(general, *b, state));
   const Comparison flown = compare(general, propagate(*a, general), propagate(*b, bodies_.model));
   ASSERT_EQ(flown.metrics.at(0).key, "attitude_deg");
   EXPECT_LT(flown.metrics.at(0).maximum, 6e-13);
@@ -260,8 +263,8 @@ TEST(Limits, APanelOfVanishingMassLeavesTheHubAlone) {
   const Bundle without = compiled("panel", {"panels=null"});
   const auto engine = make_bsm_engine(with.model);
   const auto bare = make_bsm_engine(without.model);
-  const Eigen::VectorXd a = accelerations(*engine, undisturbed(with.model));
-  const Eigen::VectorXd b = accelerations(*bare, undisturbed(without.model));
+  const Eigen::VectorXd a = accelerations(with.model, *engine, undisturbed(with.model));
+  const Eigen::VectorXd b = accelerations(without.model, *bare, undisturbed(without.model));
   // The panel's mass and inertia are 1e-11 of the hub's.
   const Vector3d omega_dot = b.segment<3>(3);
   EXPECT_LT((a.segment<3>(3) - omega_dot).norm(), 1e-9 * omega_dot.norm());
@@ -272,7 +275,7 @@ TEST(Limits, AWheelWithoutMotorOrSpinIsDeadWeight) {
   const Bundle with = compiled("wheel", {"wheels.*.torque=0", "wheels.*.speed=0"});
   const auto engine = make_bsm_engine(with.model);
   const RandomState state = undisturbed(with.model);
-  const Eigen::VectorXd a = accelerations(*engine, state);
+  const Eigen::VectorXd a = accelerations(with.model, *engine, state);
   // A free wheel keeps its absolute spin about its axis: OmegaDot = -g . omegaDot.
   for (std::size_t k = 0; k < with.model.assembly.rotors.size(); ++k) {
     const double expected = -with.model.assembly.rotors[k].axis_L.dot(a.segment<3>(3));

@@ -78,8 +78,8 @@ TEST(Depletion, LeavesTheMachineOfTheReducedMass) {
   for (RandomState state : random_states(bundle.model, 50)) {
     state.time = time;
     for (std::size_t i = 0; i < draining.size(); ++i) {
-      draining[i]->hold_inputs(time);
-      standing[i]->hold_inputs(time);
+      draining[i]->hold(inputs_at(bundle.model, time));
+      standing[i]->hold(inputs_at(reduced.model, time));
       const Eigen::VectorXd a = derivative(*draining[i], state);
       const Eigen::VectorXd b = derivative(*standing[i], state);
       EXPECT_LT((a - b).norm(), 1e-12 * b.norm());
@@ -113,7 +113,6 @@ TEST(Depletion, TakesNothingFromTheHeapInADerivative) {
     const Eigen::VectorXd x = engine->initial_state();
     Eigen::VectorXd rate(x.size());
     const auto size = static_cast<std::size_t>(x.size());
-    engine->hold_inputs(0.0);
     engine->derivative(0.0, {x.data(), size}, {rate.data(), size});
     const long before = test::allocation_count();
     for (int i = 0; i < 100; ++i) {
@@ -135,6 +134,7 @@ TEST(Depletion, ChangesNothingOfTanksThatNobodyDraws) {
     const Eigen::VectorXd x = engine->initial_state();
     const double left =
         1050.0 - 5.0 * 2000.0 / (kStandardGravity * 20.0) - 3.0 * 30.0 / (kStandardGravity * 2.0);
+    engine->hold(inputs_at(drawn.model, 5.0));
     EXPECT_NEAR(engine->observe(5.0, {x.data(), size}).mass, left, 1e-9);
   }
 }

@@ -304,7 +304,7 @@ TEST(Jet, TakesTheMomentumOfTheNozzleAlongWhateverTheBodies) {
   const Bundle bundle = every_jet({"thrusters.kicker.tank=null"});
   for (const auto& engine : both_engines(bundle)) {
     for (const RandomState& state : burning_states(bundle.model)) {
-      engine->hold_inputs(state.time);
+      engine->hold(inputs_at(bundle.model, state.time));
       Momenta expected{Vector3d::Zero(), Vector3d::Zero()};
       const auto links =
           configuration(bundle.model.assembly, state.joint_position, state.joint_rate);
@@ -374,8 +374,8 @@ TEST(Jet, PushesEveryBodyByItsShareOfTheStream) {
     for (const RandomState& state : burning_states(jet.model)) {
       const StateLayout& layout = with[i]->layout();
       const Eigen::VectorXd x = pack(state, layout);
-      with[i]->hold_inputs(state.time);
-      without[i]->hold_inputs(state.time);
+      with[i]->hold(inputs_at(jet.model, state.time));
+      without[i]->hold(inputs_at(quiet.model, state.time));
       const Eigen::VectorXd change =
           accelerations_of(derivative(*with[i], state.time, x), layout) -
           accelerations_of(derivative(*without[i], state.time, x), layout);
@@ -436,11 +436,11 @@ TEST(Jet, TakesNothingFromTheHeapInADerivative) {
     const Eigen::VectorXd x = engine->initial_state();
     Eigen::VectorXd rate(x.size());
     const auto size = static_cast<std::size_t>(x.size());
-    engine->hold_inputs(0.0);
+    InputFeed feed(bundle.model);
     engine->derivative(0.0, {x.data(), size}, {rate.data(), size});
     const long before = test::allocation_count();
     for (int i = 0; i < 100; ++i) {
-      engine->hold_inputs(0.07 * i);
+      engine->hold(feed.begin(0.07 * i));
       engine->derivative(0.07 * i, {x.data(), size}, {rate.data(), size});
     }
     EXPECT_EQ(test::allocation_count() - before, 0) << engine->name();
@@ -454,9 +454,11 @@ TEST(Jet, EndsWithTheBurn) {
   const auto with = both_engines(jet), without = both_engines(quiet);
   for (std::size_t i = 0; i < with.size(); ++i) {
     const Eigen::VectorXd x = with[i]->initial_state();
-    for (const auto& engine : {with[i].get(), without[i].get()}) engine->hold_inputs(1.0);
+    with[i]->hold(inputs_at(jet.model, 1.0));
+    without[i]->hold(inputs_at(quiet.model, 1.0));
     EXPECT_NE(derivative(*with[i], 1.0, x), derivative(*without[i], 1.0, x));
-    for (const auto& engine : {with[i].get(), without[i].get()}) engine->hold_inputs(3.0);
+    with[i]->hold(inputs_at(jet.model, 3.0));
+    without[i]->hold(inputs_at(quiet.model, 3.0));
     EXPECT_EQ(derivative(*with[i], 3.0, x), derivative(*without[i], 3.0, x));
   }
 }

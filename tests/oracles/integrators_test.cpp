@@ -25,7 +25,6 @@ namespace {
 using State = std::vector<double>;
 
 std::vector<double> initial_state(Engine& engine) {
-  engine.hold_inputs(0.0);
   const Eigen::VectorXd start = engine.initial_state();
   return {start.begin(), start.end()};
 }

@@ -148,11 +148,12 @@ class Examination {
     return true;
   }
 
-  static Eigen::VectorXd accelerations(Engine& engine, const RandomState& state) {
+  static Eigen::VectorXd accelerations(const Model& model, Engine& engine,
+                                       const RandomState& state) {
     const Eigen::VectorXd y = pack(state, engine.layout());
     Eigen::VectorXd rate(y.size());
     const auto size = static_cast<std::size_t>(y.size());
-    engine.hold_inputs(state.time);
+    engine.hold(inputs_at(model, state.time));
     engine.derivative(state.time, {y.data(), size}, {rate.data(), size});
     return accelerations_of(rate, engine.layout());
   }
@@ -163,7 +164,7 @@ class Examination {
     for (const RandomState& state : random_states(model, 2)) {
       const Eigen::VectorXd vote = test::simbody_accelerations(model, model.gravity.bsm, state);
       for (Engine* engine : {bsm_.get(), mujoco_.get()}) {
-        const Eigen::VectorXd off = accelerations(*engine, state) - vote;
+        const Eigen::VectorXd off = accelerations(model, *engine, state) - vote;
         const auto relative = [&](Eigen::Index at, Eigen::Index count) {
           // What rates of about 0.1 rad/s make of any acceleration is the least to compare with.
           const double scale = vote.segment(at, count).norm();

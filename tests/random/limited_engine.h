@@ -18,7 +18,7 @@ class LimitedEngine : public Engine {
   std::string_view name() const override { return engine_.name(); }
   const StateLayout& layout() const override { return engine_.layout(); }
   Eigen::VectorXd initial_state() const override { return engine_.initial_state(); }
-  void hold_inputs(double time) override { engine_.hold_inputs(time); }
+  void hold(const Inputs& inputs) override { engine_.hold(inputs); }
   void derivative(double time, std::span<const double> state, std::span<double> rate) override {
     if (--left_ <= 0) exhausted_ = true;
     engine_.derivative(time, state, rate);

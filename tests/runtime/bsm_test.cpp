@@ -250,9 +250,10 @@ TEST(BsmEngine, TakesNothingFromTheHeapInADerivative) {
   Eigen::VectorXd x = engine->initial_state(), rate(x.size());
   const std::span<double> state_span(x.data(), static_cast<std::size_t>(x.size()));
   const std::span<double> rate_span(rate.data(), static_cast<std::size_t>(rate.size()));
+  InputFeed feed(model);
   const long before = test::allocation_count();
   for (int i = 0; i < 100; ++i) {
-    engine->hold_inputs(i);
+    engine->hold(feed.begin(i));
     engine->derivative(i, state_span, rate_span);
     engine->finish_step(state_span);
   }

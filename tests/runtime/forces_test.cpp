@@ -102,12 +102,12 @@ TEST(ForceModel, ActsWithALoadOnlyWhileItLasts) {
   scene.model.loads = {load};
   ForceModel forces(scene.model, GravityLaw::kNone, scene.elements, FieldFrame::kFalling);
   EXPECT_TRUE(forces.is_idle());
-  forces.hold(10.0);
+  forces.hold(inputs_at(scene.model, 10.0));
   EXPECT_FALSE(forces.is_idle());
   std::vector<Wrench> wrenches(scene.poses.size());
   forces.apply(scene.r_BN, scene.poses, wrenches);
   EXPECT_LT((wrenches[1].torque_PntB_W - scene.poses[1].dcm_WL.col(0) * 2.0).norm(), 1e-15);
-  forces.hold(20.0);
+  forces.hold(inputs_at(scene.model, 20.0));
   EXPECT_TRUE(forces.is_idle());
 }
 

@@ -355,7 +355,7 @@ TEST(MujocoEngine, HoldsItsInputsUntilToldOtherwise) {
   const VectorXd state = test::sample_state(model, 17);
   const VectorXd at_start = derivative(*engine, state, 0.0);
   EXPECT_EQ(derivative(*engine, state, 2.0), at_start);
-  engine->hold_inputs(2.0);
+  engine->hold(inputs_at(model, 2.0));
   EXPECT_GT((derivative(*engine, state, 2.0) - at_start).norm(), 1e-3);
 }
 

@@ -241,14 +241,6 @@ TEST(Proof, FindsAWheelThatTurnsTheWrongWay) {
   EXPECT_THAT(failing(report), testing::Contains("hub angular acceleration"));
 }
 
-TEST(Proof, FindsAnInputThatIsAppliedAtTheWrongTime) {
-  Model model = scheduled(test::wheels_and_panels());
-  model.assembly.rotors[0].torque.entries = {{0.0, 0.01}, {50.0, -0.01}};
-  const ProofReport report = against(
-      model, [](Model& changed) { changed.assembly.rotors[0].torque.entries[1].time = 60.0; });
-  EXPECT_THAT(failing(report), testing::Contains("wheel accelerations"));
-}
-
 TEST(Proof, FindsACoordinateTooMany) {
   const ProofReport report = against(scheduled(test::wheels_and_panels()), [](Model& model) {
     model.assembly.rotors.pop_back();

@@ -21,7 +21,7 @@ class ToyEngine : public Engine {
 
   // Called before every evaluation with the time and the rates to spoil after it.
   std::function<void(double time, std::span<double> rate)> mischief = [](double, auto) {};
-  std::vector<double> held_at;      // every time hold_inputs() was called with
+  std::vector<double> held_at;      // since when the inputs of every hold() hold
   std::vector<double> final_state;  // after the last step
 
   std::string_view name() const override { return "toy"; }
@@ -29,14 +29,14 @@ class ToyEngine : public Engine {
 
   Eigen::VectorXd initial_state() const override { return pack(model_.initial, layout_); }
 
-  void hold_inputs(double time) override {
-    held_at.push_back(time);
+  void hold(const Inputs& inputs) override {
+    held_at.push_back(inputs.since);
     torque_.setZero();
-    for (const Load& load : model_.loads)
-      for (std::size_t i = 0; i < 3; ++i)
-        torque_[static_cast<Eigen::Index>(i)] += load.torque_L[i].at(time);
-    efforts_.clear();
-    for (const Link& link : model_.assembly.links) efforts_.push_back(link.joint.effort.at(time));
+    for (int load = 0; load < inputs.layout.loads; ++load)
+      torque_ += inputs.vector(inputs.layout.torque(load));
+    efforts_.assign(1, 0.0);
+    for (int joint = 0; joint < inputs.layout.joints; ++joint)
+      efforts_.push_back(inputs[inputs.layout.effort(joint)]);
   }
 
   void derivative(double time, std::span<const double> state, std::span<double> rate) override {

@@ -4,7 +4,9 @@ namespace twincraft::test {
 
 bsm::HeldInputs inputs_of(const Assembly& assembly) {
   bsm::HeldInputs held = bsm::HeldInputs::none(assembly);
-  held.set(assembly, {}, 0.0);
+  Model model;
+  model.assembly = assembly;
+  held.set(inputs_at(model, 0.0), {});
   return held;
 }
 
