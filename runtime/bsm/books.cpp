@@ -16,47 +16,60 @@ MovingElement moving(const MassElement& element, double scale, const LinkPose& p
   const Vector3d r_EL = pose.dcm_WL * element.r_EL_L;
   const Vector3d omega_L = pose.dcm_WL.transpose() * rate.omega_LN_W;
   const Vector3d spin_L = scale * element.I_PntE_L * omega_L;
-  return {scale * element.mass, pose.r_LB_W + r_EL, rate.v_LN_W + rate.omega_LN_W.cross(r_EL),
+  return {scale * element.mass, pose.r_LB_W + r_EL, rate.v_LB_W + rate.omega_LN_W.cross(r_EL),
           pose.dcm_WL * spin_L, 0.5 * omega_L.dot(spin_L)};
 }
 
-/// @param scales         of every tank's elements
-/// @param without_a_tank  of all others
-std::vector<MovingElement> moving_elements(const Motion& motion, const Assembly& assembly,
-                                           std::span<const double> scales, double without_a_tank) {
-  std::vector<MovingElement> elements;
-  for (std::size_t i = 0; i < assembly.links.size(); ++i) {
-    for (const MassElement& element : assembly.links[i].elements) {
-      const double scale =
-          element.tank < 0 ? without_a_tank : scales[static_cast<std::size_t>(element.tank)];
-      elements.push_back(moving(element, scale, motion.poses[i], motion.rates[i]));
-    }
-  }
-  return elements;
+/// @param visit  takes every element as it moves  @param scale_of  an element's scale; zero: none
+template <class ScaleOf, class Visit>
+void for_each_moving(const Motion& motion, const Assembly& assembly, const ScaleOf& scale_of,
+                     const Visit& visit) {
+  for (std::size_t i = 0; i < assembly.links.size(); ++i)
+    for (const MassElement& element : assembly.links[i].elements)
+      if (const double scale = scale_of(element); scale != 0.0)
+        visit(moving(element, scale, motion.poses[i], motion.rates[i]));
 }
 
 }  // namespace
 
+Center center_of(const Tree& tree, const Motion& motion) {
+  Center center;
+  for (std::size_t i = 0; i < tree.links.size(); ++i) {
+    const LinkConstants& link = tree.links[i];
+    const LinkPose& pose = motion.poses[i];
+    const LinkRate& rate = motion.rates[i];
+    const Vector3d moment = pose.dcm_WL * link.first_moment;
+    center.mass += link.mass;
+    center.r_CB_B += link.mass * pose.r_LB_W + moment;
+    center.v_CB_B += link.mass * rate.v_LB_W + rate.omega_LN_W.cross(moment);
+  }
+  center.r_CB_B /= center.mass;
+  center.v_CB_B /= center.mass;
+  return center;
+}
+
 Totals sum_up(const Motion& motion, const Assembly& assembly, std::span<const double> shares,
               std::span<const double> rotor_speed) {
-  const std::vector<MovingElement> elements = moving_elements(motion, assembly, shares, 1.0);
-
+  const auto share_of = [shares](const MassElement& element) {
+    return element.tank < 0 ? 1.0 : shares[static_cast<std::size_t>(element.tank)];
+  };
   Totals totals;
-  for (const MovingElement& e : elements) {
+  Vector3d momentum_B = Vector3d::Zero();
+  for_each_moving(motion, assembly, share_of, [&](const MovingElement& e) {
     totals.mass += e.mass;
     totals.r_CB_B += e.mass * e.r_EB;
-    totals.momentum_B += e.mass * e.v_E;
-  }
+    momentum_B += e.mass * e.v_E;
+  });
   totals.r_CB_B /= totals.mass;
-  const Vector3d v_C = totals.momentum_B / totals.mass;
-  for (const MovingElement& e : elements) {
-    const Vector3d v_EC = e.v_E - v_C;
+  totals.v_CB_B = momentum_B / totals.mass;
+  for_each_moving(motion, assembly, share_of, [&](const MovingElement& e) {
+    const Vector3d v_EC = e.v_E - totals.v_CB_B;
     const Vector3d H = (e.r_EB - totals.r_CB_B).cross(e.mass * v_EC) + e.spin;
     totals.H_PntC_B += H;
     totals.H_scale += H.norm();
     totals.momentum_scale += e.mass * e.v_E.norm();
     totals.kinetic += 0.5 * e.mass * v_EC.squaredNorm() + e.spin_energy;
-  }
+  });
   // The elements carry a wheel's whole tensor at the mount's rate; its own spin comes on top.
   for (std::size_t k = 0; k < assembly.rotors.size(); ++k) {
     const Rotor& rotor = assembly.rotors[k];
@@ -73,22 +86,24 @@ Totals sum_up(const Motion& motion, const Assembly& assembly, std::span<const do
 // All totals are sums over elements, scaled by their masses, but for the motion of C; and at fixed
 // motion that drops out of H, because neither sum of m (r - r_C) nor of m (v - v_C) is anything.
 Leaving sum_up_leaving(const Motion& motion, const Assembly& assembly,
-                       std::span<const double> share_rates, const Totals& totals) {
-  const Vector3d v_C = totals.momentum_B / totals.mass;
+                       std::span<const double> share_rates, const Center& center) {
+  const auto rate_of = [share_rates](const MassElement& element) {
+    return element.tank < 0 ? 0.0 : share_rates[static_cast<std::size_t>(element.tank)];
+  };
   Leaving leaving;
-  for (const MovingElement& e : moving_elements(motion, assembly, share_rates, 0.0)) {
+  for_each_moving(motion, assembly, rate_of, [&](const MovingElement& e) {
     leaving.mass += e.mass;
     leaving.momentum_B += e.mass * e.v_E;
-    leaving.H_PntC_B += (e.r_EB - totals.r_CB_B).cross(e.mass * (e.v_E - v_C)) + e.spin;
+    leaving.H_PntC_B += (e.r_EB - center.r_CB_B).cross(e.mass * (e.v_E - center.v_CB_B)) + e.spin;
     leaving.kinetic += 0.5 * e.mass * e.v_E.squaredNorm() + e.spin_energy;
-  }
+  });
   return leaving;
 }
 
 void fill_books(const Totals& totals, const Matrix3d& dcm_NB, Observation& o) {
   o.mass = totals.mass;
   o.r_CN_N = o.r_BN_N + dcm_NB * totals.r_CB_B;
-  o.v_CN_N = o.v_BN_N + dcm_NB * (totals.momentum_B / totals.mass);
+  o.v_CN_N = o.v_BN_N + dcm_NB * totals.v_CB_B;
   o.momentum = totals.mass * o.v_CN_N;
   o.H_PntC_N = dcm_NB * totals.H_PntC_B;
   o.kinetic = 0.5 * totals.mass * o.v_CN_N.squaredNorm() + totals.kinetic;

@@ -7,11 +7,16 @@
 
 namespace twincraft::bsm {
 
+/// The system's centre of mass, in hub axes.
+struct Center {
+  double mass = 0.0;                   // [kg]
+  Vector3d r_CB_B = Vector3d::Zero();  // [m]
+  Vector3d v_CB_B = Vector3d::Zero();  // [m/s] with the velocity of B taken as zero
+};
+Center center_of(const Tree& tree, const Motion& motion);
+
 /// Sums over all mass elements and rotors, in hub axes, with the velocity of B taken as zero.
-struct Totals {
-  double mass = 0.0;                           // [kg]
-  Vector3d r_CB_B = Vector3d::Zero();          // [m]
-  Vector3d momentum_B = Vector3d::Zero();      // [kg m/s] relative to B
+struct Totals : Center {
   Vector3d H_PntC_B = Vector3d::Zero();        // [kg m^2/s] about C
   double kinetic = 0.0;                        // [J] about C: without m v_C^2 / 2
   double momentum_scale = 0.0, H_scale = 0.0;  // sums of magnitudes
@@ -30,9 +35,9 @@ struct Leaving {
   double kinetic = 0.0;                    // [W] relative to B
 };
 
-/// @param share_rates  of every tank [1/s]  @param totals  of the same motion
+/// @param share_rates  of every tank [1/s]  @param center  of the same motion
 Leaving sum_up_leaving(const Motion& motion, const Assembly& assembly,
-                       std::span<const double> share_rates, const Totals& totals);
+                       std::span<const double> share_rates, const Center& center);
 
 /// Centre of mass, momenta and kinetic energy in N; needs o.r_BN_N and o.v_BN_N.
 void fill_books(const Totals& totals, const Matrix3d& dcm_NB, Observation& o);

@@ -49,6 +49,13 @@ InstructionSet best_instruction_set() {
   return avx512 ? InstructionSet::kAvx512 : InstructionSet::kAvx2;
 }
 
+std::vector<InstructionSet> instruction_sets() {
+  std::vector<InstructionSet> sets;
+  for (std::size_t i = 0; i <= static_cast<std::size_t>(best_instruction_set()); ++i)
+    sets.push_back(static_cast<InstructionSet>(i));
+  return sets;
+}
+
 std::unique_ptr<Kernel> make_kernel(const Plan& plan, InstructionSet set) {
   return std::unique_ptr<Kernel>(entries(set).new_kernel(&plan));
 }

@@ -37,7 +37,9 @@ class BsmEngine final : public Engine {
         held_(HeldInputs::none(model.assembly)),
         plan_(make_plan(model.assembly, model.engines.attitude, model.gravity, model.loads,
                         model.engines.chains)),
-        kernel_(make_kernel(plan_, set)) {
+        kernel_(make_kernel(plan_, set)),
+        motion_(at_rest(plan_.tree)),
+        wrenches_(plan_.tree.links.size()) {
     if (!jets_.is_absent()) kernel_ = with_jets(std::move(kernel_), plan_, jets_);
     BsmEngine::hold(inputs_at(model, 0.0));
   }
@@ -59,64 +61,25 @@ class BsmEngine final : public Engine {
     drain(inputs.since);
   }
 
-  void derivative(double time, std::span<const double> state, std::span<double> rate) override {
+  void derivative(double time, std::span<const double> state, std::span<double> rate,
+                  BookRates* books) override {
     drain(time);
     kernel_->derivative(state.data(), rate.data());
+    if (books != nullptr) *books = book_rates(time, state);
   }
 
   void finish_step(std::span<double> state) override { kernel_->finish_step(state.data()); }
 
-  Observation observe(double time, std::span<const double> state) override {
+  void observe(double time, std::span<const double> state, Observation& seen) override {
     drain_all(time);
     const State x = read(state);
-    Observation o{copied(x)};
-    o.time = time;
-    const Motion motion = motion_of(plan_.tree, x.joint_position, x.joint_rate, x.omega_BN_B);
-    fill_books(sum_up(motion, assembly_, shares_, x.wheel_rate), x.dcm_NB, o);
-    o.springs = spring_energy(plan_.tree, x.joint_position);
-    o.potential = o.springs + forces_.potential(x.dcm_NB.transpose() * x.r_BN_N, motion.poses);
-    return o;
-  }
-
-  ExternalRates external_rates(double time, std::span<const double> state) override {
-    drain_all(time);
-    const State x = read(state);
-    Motion motion = motion_of(plan_.tree, x.joint_position, x.joint_rate, x.omega_BN_B);
-    const Totals totals = sum_up(motion, assembly_, shares_, x.wheel_rate);
-    const Vector3d r_BN_B = x.dcm_NB.transpose() * x.r_BN_N;
-    const Vector3d v_BN_B = x.dcm_NB.transpose() * x.v_BN_N;
-    std::vector<Wrench> wrenches(motion.poses.size());
-    forces_.apply(r_BN_B, motion.poses, wrenches);
-    jets_.add(motion.poses, motion.rates, wrenches);
-    const Vector3d g_N = forces_.fall(x.r_BN_N, x.dcm_NB, motion.poses);
-    Vector3d force_B = Vector3d::Zero();
-    Vector3d torque_PntC_B = Vector3d::Zero();
-    for (const Wrench& wrench : wrenches) {
-      force_B += wrench.force_W;
-      torque_PntC_B += wrench.torque_PntB_W - totals.r_CB_B.cross(wrench.force_W);
-    }
-    const double inner_power =
-        joint_power(plan_.tree, x.joint_position, x.joint_rate, held_.effort) +
-        motor_power(x.wheel_rate, held_.motor_torque);
-    double power = inner_power;
-    const Vector3d v_CB_B = totals.momentum_B / totals.mass;
-    double own_power = inner_power + work_rate(wrenches, motion.poses, motion.rates, v_CB_B);
-    Leaving leaving;
-    if (!propellant_.is_idle()) {
-      const std::span<const double> share_rates = propellant_.share_rates();
-      leaving = sum_up_leaving(motion, assembly_, share_rates, totals);
-      power += leaving.kinetic + leaving.momentum_B.dot(v_BN_B) +
-               0.5 * leaving.mass * v_BN_B.squaredNorm() +
-               forces_.potential_rate(r_BN_B, motion.poses, share_rates);
-      own_power += leaving.kinetic - leaving.momentum_B.dot(v_CB_B) +
-                   0.5 * leaving.mass * v_CB_B.squaredNorm();
-    }
-    for (LinkRate& rate : motion.rates) rate.v_LN_W += v_BN_B;
-    power +=
-        forces_.power(r_BN_B, motion.poses, motion.rates) + jets_.power(motion.poses, motion.rates);
-    return {power,
-            x.dcm_NB * (force_B + leaving.momentum_B) + totals.mass * g_N + leaving.mass * x.v_BN_N,
-            x.dcm_NB * (torque_PntC_B + leaving.H_PntC_B), own_power};
+    assign(x, seen);
+    seen.time = time;
+    move_links(plan_.tree, x.joint_position, x.joint_rate, x.omega_BN_B, motion_);
+    fill_books(sum_up(motion_, assembly_, shares_, x.wheel_rate), x.dcm_NB, seen);
+    seen.springs = spring_energy(plan_.tree, x.joint_position);
+    seen.potential =
+        seen.springs + forces_.potential(x.dcm_NB.transpose() * x.r_BN_N, motion_.poses);
   }
 
   Eigen::MatrixXd mass_matrix(std::span<const double> state) override {
@@ -153,6 +116,53 @@ class BsmEngine final : public Engine {
     Matrix3d dcm_NB;
   };
 
+  BookRates book_rates(double time, std::span<const double> state) {
+    drain_all(time);
+    const State x = read(state);
+    const double inner_power =
+        joint_power(plan_.tree, x.joint_position, x.joint_rate, held_.effort) +
+        motor_power(x.wheel_rate, held_.motor_torque);
+    BookRates rates{.power = inner_power, .own_power = inner_power};
+    if (forces_.is_idle() && !forces_.falls_as_a_whole() && propellant_.is_idle()) {
+      rates.force_N = plan_.mass() * forces_.fall(x.r_BN_N, x.dcm_NB, motion_.poses);
+      return rates;
+    }
+    move_links(plan_.tree, x.joint_position, x.joint_rate, x.omega_BN_B, motion_);
+    const Center center = center_of(plan_.tree, motion_);
+    rates.force_N = center.mass * forces_.fall(x.r_BN_N, x.dcm_NB, motion_.poses);
+    if (!forces_.is_idle()) add_forces(x, center, rates);
+    if (!propellant_.is_idle()) add_leaving(x, center, rates);
+    return rates;
+  }
+
+  void add_forces(const State& x, const Center& center, BookRates& rates) {
+    Work work =
+        forces_.apply(x.dcm_NB.transpose() * x.r_BN_N, motion_.poses, motion_.rates, wrenches_);
+    // A nozzle flows only while its thrust acts.
+    if (jets_.acts()) work += jets_.add(motion_.poses, motion_.rates, wrenches_);
+    const WrenchSums sums = twincraft::sum_up(wrenches_, motion_.poses, motion_.rates);
+    const Vector3d& force_B = sums.all.force_W;
+    rates.power += work.power + work.force_W.dot(x.dcm_NB.transpose() * x.v_BN_N);
+    rates.own_power += sums.power - force_B.dot(center.v_CB_B);
+    rates.force_N += x.dcm_NB * force_B;
+    rates.torque_PntC_N += x.dcm_NB * (sums.all.torque_PntB_W - center.r_CB_B.cross(force_B));
+  }
+
+  /// Propellant takes its own energy and momentum along.
+  void add_leaving(const State& x, const Center& center, BookRates& rates) const {
+    const std::span<const double> share_rates = propellant_.share_rates();
+    const Leaving leaving = sum_up_leaving(motion_, assembly_, share_rates, center);
+    const Vector3d v_BN_B = x.dcm_NB.transpose() * x.v_BN_N;
+    rates.power +=
+        leaving.kinetic + leaving.momentum_B.dot(v_BN_B) +
+        0.5 * leaving.mass * v_BN_B.squaredNorm() +
+        forces_.potential_rate(x.dcm_NB.transpose() * x.r_BN_N, motion_.poses, share_rates);
+    rates.own_power += leaving.kinetic - leaving.momentum_B.dot(center.v_CB_B) +
+                       0.5 * leaving.mass * center.v_CB_B.squaredNorm();
+    rates.force_N += x.dcm_NB * leaving.momentum_B + leaving.mass * x.v_BN_N;
+    rates.torque_PntC_N += x.dcm_NB * leaving.H_PntC_B;
+  }
+
   State read(std::span<const double> state) const {
     const UnpackedState x = unpack(state, layout_);
     return {x, x.q_BN.toRotationMatrix()};
@@ -184,6 +194,9 @@ class BsmEngine final : public Engine {
   HeldInputs held_;
   Plan plan_;
   std::unique_ptr<Kernel> kernel_;
+  // For observations and books.
+  Motion motion_;
+  std::vector<Wrench> wrenches_;
 };
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <memory>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "runtime/bsm/plan.h"
 
@@ -40,6 +41,8 @@ enum class InstructionSet { kPortable, kAvx2, kAvx512 };
 std::string_view name_of(InstructionSet set);
 /// The widest that this processor has.
 InstructionSet best_instruction_set();
+/// All that it has.
+std::vector<InstructionSet> instruction_sets();
 
 /// One spacecraft. @pre the processor has `set`
 std::unique_ptr<Kernel> make_kernel(const Plan& plan, InstructionSet set = best_instruction_set());

@@ -21,21 +21,26 @@ void move_link(const Tree& tree, std::size_t i, std::span<const double> q,
   LinkRate rate = motion.rates[p];
   if (link.kind == JointKind::kHinge) {
     dcm_PL += std::cos(q[i - 1]) * link.turn_cos + std::sin(q[i - 1]) * link.turn_sin;
-    rate.v_LN_W += rate.omega_LN_W.cross(r_HP);
+    rate.v_LB_W += rate.omega_LN_W.cross(r_HP);
     rate.omega_LN_W += q_dot[i - 1] * axis;
   } else {
     r_HP += q[i - 1] * axis;
-    rate.v_LN_W += rate.omega_LN_W.cross(r_HP) + q_dot[i - 1] * axis;
+    rate.v_LB_W += rate.omega_LN_W.cross(r_HP) + q_dot[i - 1] * axis;
   }
   motion.poses[i] = {parent.dcm_WL * dcm_PL, parent.r_LB_W + r_HP};
   motion.rates[i] = rate;
 }
 
+void move_links(const Tree& tree, std::span<const double> q, std::span<const double> q_dot,
+                const Vector3d& omega_BN_B, Motion& motion) {
+  motion.rates.front().omega_LN_W = omega_BN_B;
+  for (std::size_t i = 1; i < tree.links.size(); ++i) move_link(tree, i, q, q_dot, motion);
+}
+
 Motion motion_of(const Tree& tree, std::span<const double> q, std::span<const double> q_dot,
                  const Vector3d& omega_BN_B) {
   Motion motion = at_rest(tree);
-  motion.rates.front().omega_LN_W = omega_BN_B;
-  for (std::size_t i = 1; i < tree.links.size(); ++i) move_link(tree, i, q, q_dot, motion);
+  move_links(tree, q, q_dot, omega_BN_B, motion);
   return motion;
 }
 

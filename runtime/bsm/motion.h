@@ -10,7 +10,7 @@
 
 namespace twincraft::bsm {
 
-/// In hub axes, with the velocity of B taken as zero. One entry per link.
+/// In hub axes. One entry per link.
 struct Motion {
   std::vector<LinkPose> poses;
   std::vector<LinkRate> rates;
@@ -23,6 +23,10 @@ Motion at_rest(const Tree& tree);
 void move_link(const Tree& tree, std::size_t i, std::span<const double> q,
                std::span<const double> q_dot, Motion& motion);
 
+/// Move them all.
+void move_links(const Tree& tree, std::span<const double> q, std::span<const double> q_dot,
+                const Vector3d& omega_BN_B, Motion& motion);
+/// The same with a memory of its own.
 Motion motion_of(const Tree& tree, std::span<const double> q, std::span<const double> q_dot,
                  const Vector3d& omega_BN_B);
 

@@ -224,6 +224,12 @@ bool are_alike(const LimbPlan& a, const LimbPlan& b) {
                     like_chains);
 }
 
+double Plan::mass() const {
+  double sum = 0.0;
+  for (const LinkConstants& link : tree.links) sum += link.mass;
+  return sum;
+}
+
 std::size_t Plan::planar_links() const {
   std::size_t count = 0;
   for (const LimbPlan& limb : limbs) {

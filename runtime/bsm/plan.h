@@ -71,6 +71,7 @@ struct Plan {
 
   int joints() const { return static_cast<int>(tree.links.size()) - 1; }
   int rotors() const { return static_cast<int>(tree.rotors.size()); }
+  double mass() const;  // [kg] of all links
   /// How many links the planar path serves.
   std::size_t planar_links() const;
   /// Let elements of tanks have these parts of their mass and inertia; one share per tank.

@@ -34,13 +34,23 @@ class Engine {
   virtual void hold(const Inputs& inputs) = 0;
 
   /// rate = d(state)/dt at `time`. Both have layout().size() entries and do not overlap.
-  virtual void derivative(double time, std::span<const double> state, std::span<double> rate) = 0;
+  /// @param books  receives what changes them, where given; the rate is the same either way
+  virtual void derivative(double time, std::span<const double> state, std::span<double> rate,
+                          BookRates* books) = 0;
+  void derivative(double time, std::span<const double> state, std::span<double> rate) {
+    derivative(time, state, rate, nullptr);
+  }
 
   /// After an accepted step: MRP shadow switch or quaternion normalisation, in place.
   virtual void finish_step(std::span<double> state) = 0;
 
-  virtual Observation observe(double time, std::span<const double> state) = 0;
-  virtual ExternalRates external_rates(double time, std::span<const double> state) = 0;
+  /// Sets all of `seen`. Takes nothing from the heap when it has been used before.
+  virtual void observe(double time, std::span<const double> state, Observation& seen) = 0;
+  Observation observe(double time, std::span<const double> state) {
+    Observation seen;
+    observe(time, state, seen);
+    return seen;
+  }
 
   /// The mass matrix over (v_B in N, omega in B, joint rates, wheel rates), for proofs.
   virtual Eigen::MatrixXd mass_matrix(std::span<const double> state) = 0;

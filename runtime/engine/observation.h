@@ -27,8 +27,8 @@ struct Observation : VehicleState {
   double H_scale = 0.0;
 };
 
-/// Rates of what changes the books from outside; integrated beside the state when asked for.
-struct ExternalRates {
+/// Rates of what changes the books from outside; integrated beside the state in a recorded run.
+struct BookRates {
   double power = 0.0;  // [W] efforts, motors, loads, gradient torques, minus damping
   Vector3d force_N = Vector3d::Zero();        // [N] gravity included
   Vector3d torque_PntC_N = Vector3d::Zero();  // [N m] about C

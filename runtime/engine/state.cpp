@@ -11,10 +11,6 @@ void put(const std::vector<double>& values, int at, Eigen::VectorXd& state) {
 
 Vector3d three(std::span<const double> values, int at) { return Vector3d::Map(values.data() + at); }
 
-std::vector<double> copied(std::span<const double> values) {
-  return {values.begin(), values.end()};
-}
-
 }  // namespace
 
 Eigen::VectorXd pack(const VehicleState& state, const StateLayout& layout) {
@@ -54,16 +50,15 @@ UnpackedState unpack(std::span<const double> state, const StateLayout& layout) {
   return unpacked;
 }
 
-VehicleState copied(const UnpackedState& state) {
-  VehicleState copy{state.r_BN_N,
-                    state.v_BN_N,
-                    state.q_BN,
-                    state.omega_BN_B,
-                    copied(state.joint_position),
-                    copied(state.joint_rate),
-                    copied(state.wheel_rate)};
-  if (copy.q_BN.w() < 0.0) copy.q_BN.coeffs() = -copy.q_BN.coeffs();
-  return copy;
+void assign(const UnpackedState& from, VehicleState& to) {
+  to.r_BN_N = from.r_BN_N;
+  to.v_BN_N = from.v_BN_N;
+  to.q_BN = from.q_BN;
+  if (to.q_BN.w() < 0.0) to.q_BN.coeffs() = -to.q_BN.coeffs();
+  to.omega_BN_B = from.omega_BN_B;
+  to.joint_position.assign(from.joint_position.begin(), from.joint_position.end());
+  to.joint_rate.assign(from.joint_rate.begin(), from.joint_rate.end());
+  to.wheel_rate.assign(from.wheel_rate.begin(), from.wheel_rate.end());
 }
 
 }  // namespace twincraft

@@ -47,7 +47,7 @@ struct UnpackedState {
 };
 UnpackedState unpack(std::span<const double> state, const StateLayout& layout);
 
-/// The same with a memory of its own, and the scalar of q_BN not negative.
-VehicleState copied(const UnpackedState& state);
+/// Into a state with a memory of its own; the scalar of q_BN is not negative there.
+void assign(const UnpackedState& from, VehicleState& to);
 
 }  // namespace twincraft

@@ -27,15 +27,18 @@ Vector3d gravity_difference(double mu, const Vector3d& r, const Vector3d& x) {
   return (-mu / (r2 * std::sqrt(r2))) * (x - shrink * (r + x));
 }
 
-double work_rate(std::span<const Wrench> wrenches, std::span<const LinkPose> links,
-                 std::span<const LinkRate> rates, const Vector3d& v_W) {
-  double power = 0.0;
+WrenchSums sum_up(std::span<const Wrench> wrenches, std::span<const LinkPose> links,
+                  std::span<const LinkRate> rates) {
+  WrenchSums sums;
   for (std::size_t i = 0; i < wrenches.size(); ++i) {
+    const Wrench& wrench = wrenches[i];
     const Vector3d& omega = rates[i].omega_LN_W;
-    const Vector3d v_B = rates[i].v_LN_W - omega.cross(links[i].r_LB_W);  // of its point at B
-    power += wrenches[i].force_W.dot(v_B - v_W) + wrenches[i].torque_PntB_W.dot(omega);
+    const Vector3d v_B = rates[i].v_LB_W - omega.cross(links[i].r_LB_W);  // of its point at B
+    sums.all.force_W += wrench.force_W;
+    sums.all.torque_PntB_W += wrench.torque_PntB_W;
+    sums.power += wrench.force_W.dot(v_B) + wrench.torque_PntB_W.dot(omega);
   }
-  return power;
+  return sums;
 }
 
 ForceModel::ForceModel(const Model& model, GravityLaw law,
@@ -107,7 +110,8 @@ Vector3d ForceModel::gradient_torque(const Element& element, const Vector3d& r_E
 }
 
 void ForceModel::apply_gravity(const Vector3d& r_BN_W, std::span<const LinkPose> links,
-                               std::span<Wrench> wrenches) const {
+                               std::span<const LinkRate> rates, std::span<Wrench> wrenches,
+                               Work& work) const {
   const bool uniform = law_ == GravityLaw::kSystemCom;
   const Vector3d g_system =
       uniform ? point_gravity(mu_, r_BN_W + center_of_mass(links)) : Vector3d::Zero();
@@ -122,32 +126,47 @@ void ForceModel::apply_gravity(const Vector3d& r_BN_W, std::span<const LinkPose>
     const Vector3d force_W = e.mass * g;
     wrenches[link].force_W += force_W;
     wrenches[link].torque_PntB_W += r_EB_W.cross(force_W);
-    if (law_ == GravityLaw::kBodyGradient) {
-      wrenches[link].torque_PntB_W += gradient_torque(e, r_BN_W + r_EB_W, links[link].dcm_WL);
-    }
+    if (law_ != GravityLaw::kBodyGradient) continue;
+    const Vector3d torque_W = gradient_torque(e, r_BN_W + r_EB_W, links[link].dcm_WL);
+    wrenches[link].torque_PntB_W += torque_W;
+    if (!rates.empty()) work.power += torque_W.dot(rates[link].omega_LN_W);
   }
 }
 
-void ForceModel::apply_loads(std::span<const LinkPose> links, std::span<Wrench> wrenches) const {
+void ForceModel::apply_loads(std::span<const LinkPose> links, std::span<const LinkRate> rates,
+                             std::span<Wrench> wrenches, Work& work) const {
   for (const HeldLoad& load : acting_loads_) {
     const auto link = static_cast<std::size_t>(load.link);
     const LinkPose& pose = links[link];
-    wrenches[link].torque_PntB_W += pose.dcm_WL * load.torque_L;
+    const Vector3d torque_W = pose.dcm_WL * load.torque_L;
+    wrenches[link].torque_PntB_W += torque_W;
+    if (!rates.empty()) work.power += torque_W.dot(rates[link].omega_LN_W);
     if (!load.pushes) continue;
     const Vector3d force_W = pose.dcm_WL * load.force_L;
     const Vector3d r_FB_W = load.at_system_com ? center_of_mass(links)
                                                : Vector3d(pose.r_LB_W + pose.dcm_WL * load.r_FL_L);
     wrenches[link].force_W += force_W;
     wrenches[link].torque_PntB_W += r_FB_W.cross(force_W);
+    if (rates.empty()) continue;
+    const LinkRate& rate = rates[link];
+    work.force_W += force_W;
+    work.power += force_W.dot(rate.v_LB_W + rate.omega_LN_W.cross(r_FB_W - pose.r_LB_W));
   }
 }
 
 void ForceModel::apply(const Vector3d& r_BN_W, std::span<const LinkPose> links,
                        std::span<Wrench> wrenches) const {
-  if (is_idle()) return;
-  std::fill(wrenches.begin(), wrenches.end(), Wrench{});
-  if (gravity_acts_) apply_gravity(r_BN_W, links, wrenches);
-  apply_loads(links, wrenches);
+  apply(r_BN_W, links, {}, wrenches);
+}
+
+Work ForceModel::apply(const Vector3d& r_BN_W, std::span<const LinkPose> links,
+                       std::span<const LinkRate> rates, std::span<Wrench> wrenches) const {
+  Work work;
+  if (is_idle()) return work;
+  std::ranges::fill(wrenches, Wrench{});
+  if (gravity_acts_) apply_gravity(r_BN_W, links, rates, wrenches, work);
+  apply_loads(links, rates, wrenches, work);
+  return work;
 }
 
 Vector3d ForceModel::fall(const Vector3d& r_BN_N, const Matrix3d& dcm_NW,
@@ -184,27 +203,6 @@ double ForceModel::potential_rate(const Vector3d& r_BN_W, std::span<const LinkPo
         is_per_body(law_)
             ? -mu_ * mass_rate / r_EN_W.norm()
             : -mass_rate * (mu_ / r_CN_W.norm() + point_gravity(mu_, r_CN_W).dot(r_EN_W - r_CN_W));
-  }
-  return sum;
-}
-
-double ForceModel::power(const Vector3d& r_BN_W, std::span<const LinkPose> links,
-                         std::span<const LinkRate> rates) const {
-  double sum = 0.0;
-  for (const HeldLoad& load : acting_loads_) {
-    const auto link = static_cast<std::size_t>(load.link);
-    const LinkPose& pose = links[link];
-    const Vector3d r_FL_W = load.at_system_com ? (center_of_mass(links) - pose.r_LB_W).eval()
-                                               : (pose.dcm_WL * load.r_FL_L).eval();
-    const Vector3d v_F = rates[link].v_LN_W + rates[link].omega_LN_W.cross(r_FL_W);
-    sum += (pose.dcm_WL * load.force_L).dot(v_F) +
-           (pose.dcm_WL * load.torque_L).dot(rates[link].omega_LN_W);
-  }
-  if (law_ != GravityLaw::kBodyGradient) return sum;
-  for (const Element& e : elements_) {
-    const auto link = static_cast<std::size_t>(e.link);
-    const Vector3d r_EN_W = r_BN_W + links[link].r_LB_W + links[link].dcm_WL * e.r_EL_L;
-    sum += gradient_torque(e, r_EN_W, links[link].dcm_WL).dot(rates[link].omega_LN_W);
   }
   return sum;
 }

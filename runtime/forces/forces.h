@@ -21,10 +21,11 @@ struct LinkPose {
   Vector3d r_LB_W;  // [m] link origin from the hub origin
 };
 
-/// How a link moves: its inertial rate, and the inertial velocity of its own origin.
+/// How a link moves, with the velocity of the hub origin B taken as zero: on orbit the difference
+/// of two true velocities would lose four digits.
 struct LinkRate {
-  Vector3d omega_LN_W;  // [rad/s]
-  Vector3d v_LN_W;      // [m/s]
+  Vector3d omega_LN_W;  // [rad/s] inertial
+  Vector3d v_LB_W;      // [m/s] of the link's origin, in axes that do not turn
 };
 
 struct Wrench {
@@ -32,10 +33,26 @@ struct Wrench {
   Vector3d torque_PntB_W = Vector3d::Zero();  // [N m]
 };
 
-/// What wrenches do [W] to links that move like this, seen from a point that moves at `v_W` [m/s]
-/// in the same frame: the sum of force times velocity and torque times rate.
-double work_rate(std::span<const Wrench> wrenches, std::span<const LinkPose> links,
-                 std::span<const LinkRate> rates, const Vector3d& v_W);
+/// What wrenches come to: their sum, and what they do to links that move like this [W].
+struct WrenchSums {
+  Wrench all;
+  double power = 0.0;
+};
+WrenchSums sum_up(std::span<const Wrench> wrenches, std::span<const LinkPose> links,
+                  std::span<const LinkRate> rates);
+
+/// Of the part of some wrenches that has no potential: what it does to links that move as in
+/// LinkRate, and the force that a common velocity adds the rest for.
+struct Work {
+  double power = 0.0;                   // [W]
+  Vector3d force_W = Vector3d::Zero();  // [N]
+
+  Work& operator+=(const Work& more) {
+    power += more.power;
+    force_W += more.force_W;
+    return *this;
+  }
+};
 
 enum class FieldFrame { kFalling, kInertial };
 
@@ -54,9 +71,17 @@ class ForceModel {
   /// the vehicle fall as a whole.
   bool is_idle() const { return !gravity_acts_ && acting_loads_.empty(); }
 
+  /// fall() depends on where the links are.
+  bool falls_as_a_whole() const {
+    return law_ == GravityLaw::kSystemCom && frame_ == FieldFrame::kFalling;
+  }
+
   /// Set the wrench of every link, unless idle.
   void apply(const Vector3d& r_BN_W, std::span<const LinkPose> links,
              std::span<Wrench> wrenches) const;
+  /// The same, for links that move. @return of loads and gravity-gradient torques
+  Work apply(const Vector3d& r_BN_W, std::span<const LinkPose> links,
+             std::span<const LinkRate> rates, std::span<Wrench> wrenches) const;
 
   /// The common acceleration [m/s^2] of the falling frame in N, to be added to the hub's; zero in
   /// the inertial frame or without gravity. In N because turning a vector of orbital size into W
@@ -70,10 +95,6 @@ class ForceModel {
   /// How fast potential() changes because elements of tanks lose mass [W].
   double potential_rate(const Vector3d& r_BN_W, std::span<const LinkPose> links,
                         std::span<const double> share_rates) const;
-
-  /// Of what has no potential [W]: loads and gravity-gradient torques.
-  double power(const Vector3d& r_BN_W, std::span<const LinkPose> links,
-               std::span<const LinkRate> rates) const;
 
  private:
   struct Element {
@@ -95,9 +116,11 @@ class ForceModel {
   Vector3d center_of_mass(std::span<const LinkPose> links) const;  // r_CB_W
   Vector3d gradient_torque(const Element& element, const Vector3d& r_EN_W,
                            const Matrix3d& dcm_WL) const;
+  // @param rates  empty: no work is asked for
   void apply_gravity(const Vector3d& r_BN_W, std::span<const LinkPose> links,
-                     std::span<Wrench> wrenches) const;
-  void apply_loads(std::span<const LinkPose> links, std::span<Wrench> wrenches) const;
+                     std::span<const LinkRate> rates, std::span<Wrench> wrenches, Work& work) const;
+  void apply_loads(std::span<const LinkPose> links, std::span<const LinkRate> rates,
+                   std::span<Wrench> wrenches, Work& work) const;
 
   double mu_;
   GravityLaw law_;

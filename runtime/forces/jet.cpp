@@ -51,7 +51,7 @@ JetModel::Point JetModel::point_of(int link, const Vector3d& r_L, std::span<cons
                                    std::span<const LinkRate> rates) {
   const auto i = static_cast<std::size_t>(link);
   const Vector3d r_W = links[i].dcm_WL * r_L;
-  return {links[i].r_LB_W + r_W, rates[i].v_LN_W + rates[i].omega_LN_W.cross(r_W)};
+  return {links[i].r_LB_W + r_W, rates[i].v_LB_W + rates[i].omega_LN_W.cross(r_W)};
 }
 
 /// @param each  takes nozzle, source and the rate between them [kg/s]
@@ -65,8 +65,9 @@ void JetModel::for_each_stream(const Each& each) const {
   }
 }
 
-void JetModel::add(std::span<const LinkPose> links, std::span<const LinkRate> rates,
+Work JetModel::add(std::span<const LinkPose> links, std::span<const LinkRate> rates,
                    std::span<Wrench> wrenches) const {
+  Work work;
   for_each_stream([&](const Nozzle& nozzle, const Source& source, double mdot) {
     const auto from = static_cast<std::size_t>(source.link);
     const Point P = point_of(nozzle.link, nozzle.r_PL_L, links, rates);
@@ -74,22 +75,13 @@ void JetModel::add(std::span<const LinkPose> links, std::span<const LinkRate> ra
     const Vector3d force = -mdot * (P.v - E.v);
     push(force, P.r_B, wrenches[static_cast<std::size_t>(nozzle.link)]);
     push(force, E.r_B, wrenches[from]);
-    wrenches[from].torque_PntB_W +=
-        mdot * spin_of(source.k_L, links[from].dcm_WL, rates[from].omega_LN_W);
-  });
-}
-
-double JetModel::power(std::span<const LinkPose> links, std::span<const LinkRate> rates) const {
-  double sum = 0.0;
-  for_each_stream([&](const Nozzle& nozzle, const Source& source, double mdot) {
-    const auto from = static_cast<std::size_t>(source.link);
-    const Point P = point_of(nozzle.link, nozzle.r_PL_L, links, rates);
-    const Point E = point_of(source.link, source.r_EL_L, links, rates);
     const Vector3d& omega = rates[from].omega_LN_W;
-    sum += mdot *
-           (omega.dot(spin_of(source.k_L, links[from].dcm_WL, omega)) - (P.v - E.v).dot(P.v + E.v));
+    const Vector3d torque = mdot * spin_of(source.k_L, links[from].dcm_WL, omega);
+    wrenches[from].torque_PntB_W += torque;
+    work.power += force.dot(P.v + E.v) + torque.dot(omega);
+    work.force_W += 2.0 * force;
   });
-  return sum;
+  return work;
 }
 
 }  // namespace twincraft

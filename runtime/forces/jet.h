@@ -42,13 +42,9 @@ class JetModel {
   /// Something flows.
   bool acts() const { return acts_; }
 
-  /// Add to the wrenches of links(). @param links, rates  read at links(); a velocity common to all
-  /// may be left out
-  void add(std::span<const LinkPose> links, std::span<const LinkRate> rates,
+  /// Add to the wrenches of links(). @param links, rates  read at links() @return of what it added
+  Work add(std::span<const LinkPose> links, std::span<const LinkRate> rates,
            std::span<Wrench> wrenches) const;
-
-  /// Of those wrenches [W]. @param rates  inertial
-  double power(std::span<const LinkPose> links, std::span<const LinkRate> rates) const;
 
  private:
   struct Source {

@@ -39,17 +39,21 @@ void PointMassEngine::hold(const Inputs& inputs) {
     force_N_ += inputs.vector(inputs.layout.force(load));
 }
 
-void PointMassEngine::derivative(double, std::span<const double> state, std::span<double> rate) {
+void PointMassEngine::derivative(double, std::span<const double> state, std::span<double> rate,
+                                 BookRates* books) {
   Output(rate.data() + StateLayout::position()) = velocity(state);
   Output(rate.data() + StateLayout::velocity()) = acceleration(position(state), velocity(state));
+  if (books == nullptr) return;
+  *books = {.power = force_N_.dot(velocity(state)),
+            .force_N = force_N_ + mass() * gravity(position(state))};
 }
 
 Vector3d PointMassEngine::gravity(const Vector3d& r_BN_N) const {
   return mu_ == 0.0 ? Vector3d(Vector3d::Zero()) : point_gravity(mu_, r_BN_N + r_CB_N_);
 }
 
-Observation PointMassEngine::observe(double time, std::span<const double> state) {
-  Observation seen{copied(unpack(state, layout_))};
+void PointMassEngine::observe(double time, std::span<const double> state, Observation& seen) {
+  assign(unpack(state, layout_), seen);
   seen.time = time;
   seen.r_CN_N = seen.r_BN_N + r_CB_N_;
   seen.v_CN_N = seen.v_BN_N;
@@ -58,14 +62,8 @@ Observation PointMassEngine::observe(double time, std::span<const double> state)
   seen.potential = mu_ == 0.0 ? 0.0 : -mu_ * seen.mass / seen.r_CN_N.norm();
   seen.momentum = seen.mass * seen.v_CN_N;
   seen.momentum_scale = seen.momentum.norm();
-  return seen;
-}
-
-ExternalRates PointMassEngine::external_rates(double, std::span<const double> state) {
-  ExternalRates rates;
-  rates.power = force_N_.dot(velocity(state));
-  rates.force_N = force_N_ + mass() * gravity(position(state));
-  return rates;
+  seen.own_kinetic = seen.springs = seen.H_scale = 0.0;
+  seen.H_PntC_N.setZero();
 }
 
 }  // namespace twincraft

@@ -13,10 +13,10 @@ class PointMassEngine : public Engine {
   const StateLayout& layout() const override { return layout_; }
   Eigen::VectorXd initial_state() const override { return pack(initial_, layout_); }
   void hold(const Inputs& inputs) override;
-  void derivative(double time, std::span<const double> state, std::span<double> rate) override;
+  void derivative(double time, std::span<const double> state, std::span<double> rate,
+                  BookRates* books) override;
   void finish_step(std::span<double>) override {}
-  Observation observe(double time, std::span<const double> state) override;
-  ExternalRates external_rates(double time, std::span<const double> state) override;
+  void observe(double time, std::span<const double> state, Observation& seen) override;
 
  protected:
   PointMassEngine(const Model& model, GravityLaw law);

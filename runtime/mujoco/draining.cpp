@@ -21,16 +21,17 @@ void DrainingBodies::set_shares(std::span<const double> shares, mjModel& model) 
 }
 
 LeavingSums DrainingBodies::leaving(const mjModel& model, const mjData& data,
-                                    const Vector3d& v_BN_N, const MotionSums& sums,
+                                    const Vector3d& v_BN_W, const BodyCenter& center,
                                     std::span<const double> share_rates) const {
   LeavingSums all;
   for (const Body& body : bodies_) {
     const double share = model.body_mass[body.id] / body.full_mass;
     const LeavingSums one =
-        twincraft::leaving(model, data, v_BN_N, sums, {body.id, share_rates[body.tank] / share});
+        twincraft::leaving(model, data, v_BN_W, center, {body.id, share_rates[body.tank] / share});
     all.kinetic += one.kinetic;
+    all.own_kinetic += one.own_kinetic;
     all.momentum += one.momentum;
-    all.H_PntC_N += one.H_PntC_N;
+    all.H_PntC_W += one.H_PntC_W;
   }
   return all;
 }

@@ -21,8 +21,8 @@ class DrainingBodies {
   void set_shares(std::span<const double> shares, mjModel& model);
 
   /// Rates of the books at fixed motion. @param share_rates  of every tank [1/s]
-  LeavingSums leaving(const mjModel& model, const mjData& data, const Vector3d& v_BN_N,
-                      const MotionSums& sums, std::span<const double> share_rates) const;
+  LeavingSums leaving(const mjModel& model, const mjData& data, const Vector3d& v_BN_W,
+                      const BodyCenter& center, std::span<const double> share_rates) const;
 
  private:
   struct Body {

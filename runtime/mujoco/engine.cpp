@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -71,24 +72,32 @@ class MujocoEngine final : public Engine {
   const StateLayout& layout() const override { return exchange_.layout(); }
   Eigen::VectorXd initial_state() const override { return pack(initial_, layout()); }
   void hold(const Inputs& inputs) override;
-  void derivative(double time, std::span<const double> state, std::span<double> rate) override;
+  void derivative(double time, std::span<const double> state, std::span<double> rate,
+                  BookRates* books) override;
   void finish_step(std::span<double> state) override;
-  Observation observe(double time, std::span<const double> state) override;
-  ExternalRates external_rates(double time, std::span<const double> state) override;
+  void observe(double time, std::span<const double> state, Observation& seen) override;
   Eigen::MatrixXd mass_matrix(std::span<const double> state) override;
   HeldMachine held() const override { return held_by(*model_, map_); }
   RoundingTerms rounding_terms(std::span<const double> state) override;
 
  private:
+  /// What was found of forces; the wrenches are in wrenches_.
+  struct Forces {
+    Vector3d fall_N = Vector3d::Zero();  // [m/s^2] the common acceleration of the falling frame
+    Work work;                           // when it was asked for
+  };
+
   void drain(double time);
-  void add_leaving(const Vector3d& r_BN_N, const Vector3d& v_BN_N, const MotionSums& sums,
-                   ExternalRates& rates) const;
+  BookRates book_rates(std::span<const double> state, const Matrix3d& dcm_NW,
+                       const Forces& forces) const;
+  BookRates centred_book_rates(std::span<const double> state);
+  void add_leaving(const Vector3d& r_BN_W, const Vector3d& v_BN_W, const Matrix3d& dcm_NW,
+                   const BodyCenter& center, BookRates& rates) const;
   [[noreturn]] void fail(std::span<const double> state, std::span<const double> rate);
-  MotionSums move_to(std::span<const double> state);
+  void move_to(std::span<const double> state);
   void gather_poses();
-  void gather_rates(const Vector3d& v_BN_N);
-  void gather_jet_rates();
-  Vector3d project_forces(const Vector3d& r_BN_N, const Matrix3d& dcm_NW);
+  void gather_rates(std::span<const int> links);
+  Forces find_forces(const Vector3d& r_BN_N, const Matrix3d& dcm_NW, bool with_work);
   double joint_power() const;
   std::vector<int> dof_order() const;
 
@@ -113,6 +122,7 @@ class MujocoEngine final : public Engine {
   std::vector<LinkPose> poses_;
   std::vector<Wrench> wrenches_;
   std::vector<LinkRate> link_rates_;
+  std::vector<int> all_links_;
 };
 
 MujocoEngine::MujocoEngine(const Model& model, const std::string& mjcf)
@@ -135,7 +145,9 @@ MujocoEngine::MujocoEngine(const Model& model, const std::string& mjcf)
       applied_(held_.size()),
       poses_(model.assembly.links.size()),
       wrenches_(poses_.size()),
-      link_rates_(poses_.size()) {
+      link_rates_(poses_.size()),
+      all_links_(poses_.size()) {
+  std::iota(all_links_.begin(), all_links_.end(), 0);
   MujocoEngine::hold(inputs_at(model, 0.0));
 }
 
@@ -160,7 +172,8 @@ void MujocoEngine::drain(double time) {
   forces_.set_shares(shares);
 }
 
-void MujocoEngine::derivative(double time, std::span<const double> state, std::span<double> rate) {
+void MujocoEngine::derivative(double time, std::span<const double> state, std::span<double> rate,
+                              BookRates* books) {
   const mjModel* m = model_.get();
   mjData* d = data_.get();
   const Matrix3d dcm_NW = placement_ == Placement::kAligned
@@ -173,10 +186,14 @@ void MujocoEngine::derivative(double time, std::span<const double> state, std::s
   mj_comPos(m, d);
   mj_comVel(m, d);
   const double* applied = held_.data();
-  Vector3d fall_N = Vector3d::Zero();
+  Forces forces;
   if (law_ != GravityLaw::kNone || !forces_.is_idle()) {
-    fall_N = project_forces(Input(state.data() + StateLayout::position()), dcm_NW);
-    applied = applied_.data();
+    forces = find_forces(Input(state.data() + StateLayout::position()), dcm_NW, books != nullptr);
+    if (!forces_.is_idle()) {
+      std::ranges::copy(held_, applied_.begin());
+      projector_.add(*m, *d, wrenches_, applied_);
+      applied = applied_.data();
+    }
   }
   mj_crb(m, d);
   mj_factorM(m, d);
@@ -185,9 +202,12 @@ void MujocoEngine::derivative(double time, std::span<const double> state, std::s
   for (int i = 0; i < m->nv; ++i) d->qacc[i] = d->qfrc_passive[i] - d->qfrc_bias[i] + applied[i];
   mj_solveM(m, d, d->qacc, d->qacc, 1);
   const double sum =
-      exchange_.take_back(state.data(), dcm_NW * Input(d->qacc) + fall_N, *d, rate.data());
+      exchange_.take_back(state.data(), dcm_NW * Input(d->qacc) + forces.fall_N, *d, rate.data());
   // A singular mass matrix only warns, and MuJoCo goes on with a made-up pivot.
   if (!std::isfinite(sum) || d->warning[mjWARN_INERTIA].number > 0) fail(state, rate);
+  if (books == nullptr) return;
+  *books = placement_ == Placement::kAligned ? book_rates(state, dcm_NW, forces)
+                                             : centred_book_rates(state);
 }
 
 // One bad entry spoils all accelerations, so the state is searched for the culprit first.
@@ -222,37 +242,42 @@ void MujocoEngine::gather_poses() {
   }
 }
 
-// Sets applied_. @return the common acceleration of the falling frame, in N
-Vector3d MujocoEngine::project_forces(const Vector3d& r_BN_N, const Matrix3d& dcm_NW) {
+// Poses and, where something acts, the wrenches of all links.
+MujocoEngine::Forces MujocoEngine::find_forces(const Vector3d& r_BN_N, const Matrix3d& dcm_NW,
+                                               bool with_work) {
+  Forces forces;
   gather_poses();
-  std::copy(held_.begin(), held_.end(), applied_.begin());
   if (!forces_.is_idle()) {
-    forces_.apply(dcm_NW.transpose() * r_BN_N, poses_, wrenches_);
+    if (with_work) gather_rates(all_links_);
+    const std::span<const LinkRate> rates =
+        with_work ? std::span<const LinkRate>(link_rates_) : std::span<const LinkRate>();
+    forces.work = forces_.apply(dcm_NW.transpose() * r_BN_N, poses_, rates, wrenches_);
     // A nozzle flows only while its thrust acts, so here alone.
     if (jets_.acts()) {
-      gather_jet_rates();
-      jets_.add(poses_, link_rates_, wrenches_);
+      if (!with_work) gather_rates(jets_.links());
+      forces.work += jets_.add(poses_, link_rates_, wrenches_);
     }
-    projector_.add(*model_, *data_, wrenches_, applied_);
   }
-  return forces_.fall(r_BN_N, dcm_NW, poses_);
+  forces.fall_N = forces_.fall(r_BN_N, dcm_NW, poses_);
+  return forces;
 }
 
 // The vehicle at `state`, centred in any frame: what is observed is not what is tested.
-MotionSums MujocoEngine::move_to(std::span<const double> state) {
+void MujocoEngine::move_to(std::span<const double> state) {
   exchange_.hand_over(state.data(), Placement::kCentred, *data_);
   mj_kinematics(model_.get(), data_.get());
   align_round_wheels(round_wheels_, *data_);
   mj_comPos(model_.get(), data_.get());
   mj_comVel(model_.get(), data_.get());
-  gather_poses();
-  return sum_motion(*model_, *data_, Input(state.data() + StateLayout::velocity()));
 }
 
-Observation MujocoEngine::observe(double time, std::span<const double> state) {
+void MujocoEngine::observe(double time, std::span<const double> state, Observation& seen) {
   drain(time);
-  const MotionSums sums = move_to(state);
-  Observation seen{copied(unpack(state, layout()))};
+  move_to(state);
+  gather_poses();
+  const MotionSums sums =
+      sum_motion(*model_, *data_, Input(state.data() + StateLayout::velocity()));
+  assign(unpack(state, layout()), seen);
   seen.time = time;
   seen.r_CN_N = seen.r_BN_N + sums.r_CB_N;
   seen.v_CN_N = sums.v_CN_N;
@@ -265,60 +290,56 @@ Observation MujocoEngine::observe(double time, std::span<const double> state) {
   seen.H_PntC_N = sums.H_PntC_N;
   seen.momentum_scale = sums.momentum_scale;
   seen.H_scale = sums.H_scale;
-  return seen;
 }
 
-ExternalRates MujocoEngine::external_rates(double time, std::span<const double> state) {
-  drain(time);
-  const MotionSums sums = move_to(state);
-  const Vector3d r_BN_N = Input(state.data() + StateLayout::position());
-  const Vector3d v_BN_N = Input(state.data() + StateLayout::velocity());
-  gather_rates(v_BN_N);
-  ExternalRates rates;
-  rates.own_power = joint_power();
-  rates.power = rates.own_power + forces_.power(r_BN_N, poses_, link_rates_) +
-                jets_.power(poses_, link_rates_);
-  std::ranges::fill(wrenches_, Wrench{});
-  forces_.apply(r_BN_N, poses_, wrenches_);
-  jets_.add(poses_, link_rates_, wrenches_);
-  for (const Wrench& wrench : wrenches_) {
-    rates.force_N += wrench.force_W;
-    rates.torque_PntC_N += wrench.torque_PntB_W;
+// From what the evaluation left behind. @pre the hub's origin is at rest at zero there
+BookRates MujocoEngine::book_rates(std::span<const double> state, const Matrix3d& dcm_NW,
+                                   const Forces& forces) const {
+  const Vector3d r_BN_W = dcm_NW.transpose() * Input(state.data() + StateLayout::position());
+  const Vector3d v_BN_W = dcm_NW.transpose() * Input(state.data() + StateLayout::velocity());
+  const BodyCenter center = center_of(*model_, *data_);
+  const double inner_power = joint_power();
+  BookRates rates{.power = inner_power,
+                  .force_N = center.mass * forces.fall_N,  // what falls does so at C
+                  .own_power = inner_power};
+  if (!forces_.is_idle()) {
+    const WrenchSums sums = sum_up(wrenches_, poses_, link_rates_);
+    const Vector3d& force_W = sums.all.force_W;
+    rates.power += forces.work.power + forces.work.force_W.dot(v_BN_W);
+    rates.own_power += sums.power - force_W.dot(center.v_CB_W);
+    rates.force_N += dcm_NW * force_W;
+    rates.torque_PntC_N += dcm_NW * (sums.all.torque_PntB_W - center.r_CB_W.cross(force_W));
   }
-  rates.own_power += work_rate(wrenches_, poses_, link_rates_, sums.v_CN_N);
-  rates.torque_PntC_N -= sums.r_CB_N.cross(rates.force_N);
-  // What falls does so at C.
-  rates.force_N += sums.mass * forces_.fall(r_BN_N, Matrix3d::Identity(), poses_);
-  if (!propellant_.is_idle()) add_leaving(r_BN_N, v_BN_N, sums, rates);
+  if (!propellant_.is_idle()) add_leaving(r_BN_W, v_BN_W, dcm_NW, center, rates);
   return rates;
 }
 
-// Propellant takes its own energy and momentum along.
-void MujocoEngine::add_leaving(const Vector3d& r_BN_N, const Vector3d& v_BN_N,
-                               const MotionSums& sums, ExternalRates& rates) const {
-  const std::span<const double> share_rates = propellant_.share_rates();
-  const LeavingSums left = draining_.leaving(*model_, *data_, v_BN_N, sums, share_rates);
-  rates.force_N += left.momentum;
-  rates.torque_PntC_N += left.H_PntC_N;
-  rates.power += left.kinetic;
-  rates.own_power += left.own_kinetic;
-  rates.power += forces_.potential_rate(r_BN_N, poses_, share_rates);
+// In the inertial frame the hub stands where it is, and sums about it would lose their digits.
+BookRates MujocoEngine::centred_book_rates(std::span<const double> state) {
+  move_to(state);
+  const Matrix3d dcm_NW = Matrix3d::Identity();
+  return book_rates(state, dcm_NW,
+                    find_forces(Input(state.data() + StateLayout::position()), dcm_NW, true));
 }
 
-void MujocoEngine::gather_rates(const Vector3d& v_BN_N) {
-  for (std::size_t i = 0; i < link_rates_.size(); ++i) {
-    const Twist twist = twist_of(*data_, map_.link_body[i]);
-    link_rates_[i].omega_LN_W = twist.omega;
-    link_rates_[i].v_LN_W = v_BN_N + twist.v_B + twist.omega.cross(poses_[i].r_LB_W);
-  }
+// Propellant takes its own energy and momentum along.
+void MujocoEngine::add_leaving(const Vector3d& r_BN_W, const Vector3d& v_BN_W,
+                               const Matrix3d& dcm_NW, const BodyCenter& center,
+                               BookRates& rates) const {
+  const std::span<const double> share_rates = propellant_.share_rates();
+  const LeavingSums left = draining_.leaving(*model_, *data_, v_BN_W, center, share_rates);
+  rates.force_N += dcm_NW * left.momentum;
+  rates.torque_PntC_N += dcm_NW * left.H_PntC_W;
+  rates.power += left.kinetic + forces_.potential_rate(r_BN_W, poses_, share_rates);
+  rates.own_power += left.own_kinetic;
 }
 
 // Relative to the hub origin, wherever the hub is placed; cvel is taken at the centre of mass of
 // the whole tree.
-void MujocoEngine::gather_jet_rates() {
+void MujocoEngine::gather_rates(std::span<const int> links) {
   const Input r_CO_W(data_->subtree_com + 3 * kHubBody);
   const Input v_BO_W(data_->qvel);
-  for (const int link : jets_.links()) {
+  for (const int link : links) {
     const auto i = static_cast<std::size_t>(link);
     const int body = map_.link_body[i];
     const Vector3d omega = Input(data_->cvel + 6 * body);

@@ -10,29 +10,25 @@ namespace {
 
 using Point = Eigen::Map<const Vector3d>;
 
+// Relative to the hub origin. cvel is (angular, linear) at the centre of mass of the whole tree.
 Vector3d center_velocity(const mjData& data, int body) {
-  const Twist twist = twist_of(data, body);
-  return twist.v_B + twist.omega.cross(Point(data.xipos + 3 * body));
+  const Vector3d omega = Point(data.cvel + 6 * body);
+  const Point r_CB_W(data.subtree_com + 3 * kHubBody);
+  const Vector3d v_B = Point(data.cvel + 6 * body + 3) - omega.cross(r_CB_W);
+  return v_B + omega.cross(Point(data.xipos + 3 * body));
 }
 
 // I omega of one body about its own centre of mass, world axes.
 Vector3d spin_momentum(const mjModel& model, const mjData& data, int body,
-                       const Vector3d& omega_N) {
+                       const Vector3d& omega_W) {
   using Rotation = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>;
-  const Rotation dcm_NI(data.ximat + 9 * body);
+  const Rotation dcm_WI(data.ximat + 9 * body);
   const Point moments(model.body_inertia + 3 * body);
-  const Vector3d omega_I = dcm_NI.transpose() * omega_N;
-  return dcm_NI * moments.cwiseProduct(omega_I);
+  const Vector3d omega_I = dcm_WI.transpose() * omega_W;
+  return dcm_WI * moments.cwiseProduct(omega_I);
 }
 
 }  // namespace
-
-Twist twist_of(const mjData& data, int body) {
-  // cvel is (angular, linear) at the centre of mass of the whole tree.
-  const Vector3d omega = Point(data.cvel + 6 * body);
-  const Point r_CB_N(data.subtree_com + 3 * kHubBody);
-  return Twist{.omega = omega, .v_B = Point(data.cvel + 6 * body + 3) - omega.cross(r_CB_N)};
-}
 
 MotionSums sum_motion(const mjModel& model, const mjData& data, const Vector3d& v_BN_N) {
   MotionSums sums;
@@ -68,19 +64,32 @@ MotionSums sum_motion(const mjModel& model, const mjData& data, const Vector3d& 
   return sums;
 }
 
+BodyCenter center_of(const mjModel& model, const mjData& data) {
+  BodyCenter center;
+  for (int body = kHubBody; body < model.nbody; ++body) {
+    const double mass = model.body_mass[body];
+    center.mass += mass;
+    center.r_CB_W += mass * Point(data.xipos + 3 * body);
+    center.v_CB_W += mass * center_velocity(data, body);
+  }
+  center.r_CB_W /= center.mass;
+  center.v_CB_W /= center.mass;
+  return center;
+}
+
 // The motion of C drops out of the rate of H: neither the sum of m (r - r_C) nor that of m (v -
 // v_C) is anything.
-LeavingSums leaving(const mjModel& model, const mjData& data, const Vector3d& v_BN_N,
-                    const MotionSums& sums, const Loss& loss) {
+LeavingSums leaving(const mjModel& model, const mjData& data, const Vector3d& v_BN_W,
+                    const BodyCenter& center, const Loss& loss) {
   const double mass_rate = loss.relative_rate * model.body_mass[loss.body];
   const Vector3d omega = Point(data.cvel + 6 * loss.body);
-  const Vector3d v_iN_N = v_BN_N + center_velocity(data, loss.body);
-  const Vector3d r_iC_N = Point(data.xipos + 3 * loss.body) - sums.r_CB_N;
+  const Vector3d v_iB_W = center_velocity(data, loss.body);
+  const Vector3d v_iN_W = v_BN_W + v_iB_W, v_iC_W = v_iB_W - center.v_CB_W;
+  const Vector3d r_iC_W = Point(data.xipos + 3 * loss.body) - center.r_CB_W;
   const Vector3d spin = loss.relative_rate * spin_momentum(model, data, loss.body, omega);
-  const Vector3d v_iC_N = v_iN_N - sums.v_CN_N;
-  return {0.5 * (mass_rate * v_iN_N.squaredNorm() + omega.dot(spin)),
-          0.5 * (mass_rate * v_iC_N.squaredNorm() + omega.dot(spin)), mass_rate * v_iN_N,
-          mass_rate * r_iC_N.cross(v_iC_N) + spin};
+  return {0.5 * (mass_rate * v_iN_W.squaredNorm() + omega.dot(spin)),
+          0.5 * (mass_rate * v_iC_W.squaredNorm() + omega.dot(spin)), mass_rate * v_iN_W,
+          mass_rate * r_iC_W.cross(v_iC_W) + spin};
 }
 
 }  // namespace twincraft

@@ -25,12 +25,20 @@ struct MotionSums {
 /// @param v_BN_N  the hub origin's true velocity [m/s]
 MotionSums sum_motion(const mjModel& model, const mjData& data, const Vector3d& v_BN_N);
 
+/// The system's centre of mass, in the world's axes W of the same placement.
+struct BodyCenter {
+  double mass = 0.0;                   // [kg]
+  Vector3d r_CB_W = Vector3d::Zero();  // [m] from the hub origin
+  Vector3d v_CB_W = Vector3d::Zero();  // [m/s]
+};
+BodyCenter center_of(const mjModel& model, const mjData& data);
+
 /// What leaves the books because bodies lose mass: their rates at fixed motion.
 struct LeavingSums {
-  double kinetic = 0.0;                  // [W] in N
+  double kinetic = 0.0;                  // [W] of the motion in N
   double own_kinetic = 0.0;              // [W] about C
-  Vector3d momentum = Vector3d::Zero();  // [N] in N
-  Vector3d H_PntC_N = Vector3d::Zero();  // [N m]
+  Vector3d momentum = Vector3d::Zero();  // [N] of the motion in N, components in W
+  Vector3d H_PntC_W = Vector3d::Zero();  // [N m]
 };
 
 /// A body that loses mass, and inertia in proportion.
@@ -39,15 +47,8 @@ struct Loss {
   double relative_rate = 0.0;  // [1/s] d(mass)/dt / mass
 };
 
-/// What one body adds. @param sums  of this instant
-LeavingSums leaving(const mjModel& model, const mjData& data, const Vector3d& v_BN_N,
-                    const MotionSums& sums, const Loss& loss);
-
-/// The spatial velocity of a body, taken at the hub origin, in world axes.
-struct Twist {
-  Vector3d omega;  // [rad/s]
-  Vector3d v_B;    // [m/s] of the body's point that passes the hub origin
-};
-Twist twist_of(const mjData& data, int body);
+/// What one body adds. @param center  of this instant
+LeavingSums leaving(const mjModel& model, const mjData& data, const Vector3d& v_BN_W,
+                    const BodyCenter& center, const Loss& loss);
 
 }  // namespace twincraft

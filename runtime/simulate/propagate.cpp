@@ -29,13 +29,13 @@ class BookkeepingOde : public Ode {
       : engine_(engine), size_(static_cast<std::size_t>(engine.layout().size())) {}
   int size() const override { return static_cast<int>(size_ + kBooks); }
   void derivative(double time, std::span<const double> state, std::span<double> rate) override {
-    engine_.derivative(time, state.first(size_), rate.first(size_));
-    const ExternalRates external = engine_.external_rates(time, state.first(size_));
+    BookRates of_books;
+    engine_.derivative(time, state.first(size_), rate.first(size_), &of_books);
     const std::span<double> books = rate.last(kBooks);
-    books[0] = external.power;
-    Vector3d::Map(&books[1]) = external.force_N;
-    Vector3d::Map(&books[4]) = external.torque_PntC_N;
-    books[7] = external.own_power;
+    books[0] = of_books.power;
+    Vector3d::Map(&books[1]) = of_books.force_N;
+    Vector3d::Map(&books[4]) = of_books.torque_PntC_N;
+    books[7] = of_books.own_power;
   }
   void finish_step(std::span<double> state) override { engine_.finish_step(state.first(size_)); }
 
@@ -310,13 +310,12 @@ class RecordedRun::Flight {
     ended_ = true;
   }
 
-  Observation observe() {
-    const auto size = static_cast<std::size_t>(engine_.layout().size());
-    return engine_.observe(run_.time(), run_.state().first(size));
+  std::span<const double> state() {
+    return run_.state().first(static_cast<std::size_t>(engine_.layout().size()));
   }
 
   void record() {
-    last_ = observe();
+    engine_.observe(run_.time(), state(), last_);
     refuse_absurd(last_, model_);
     last_books_ = books_of(run_.state());
     ++trajectory_.recorded;
@@ -329,7 +328,7 @@ class RecordedRun::Flight {
     const std::vector<double>& instants = options_.instants;
     std::size_t next = trajectory_.instants.size();
     for (; next < instants.size() && run_.time() >= instants[next] - run_.tolerance(); ++next)
-      trajectory_.instants.push_back(observe());
+      trajectory_.instants.push_back(engine_.observe(run_.time(), state()));
     next_instant_ = next < instants.size() ? instants[next] - run_.tolerance() : kNever;
   }
 

@@ -1,6 +1,7 @@
 // Whole RK4 steps of one spec.
 //   bench_steps SPEC [--set PATH=VALUE]... --engine E [--steps N]    runs them and exits: for
-//                                                                    callgrind and perf
+//                                                                    callgrind and perf; with
+//                                                                    --recorded as scsim records
 //   bench_steps SPEC [--set PATH=VALUE]... [--steps N] [--trials N]  a race in one process by the
 //                                                                    timing protocol; JSON
 #include <fmt/format.h>
@@ -13,6 +14,7 @@
 
 #include "runtime/bsm/engine.h"
 #include "runtime/mujoco/engine.h"
+#include "runtime/simulate/propagate.h"
 #include "runtime/simulate/timing.h"
 #include "tests/bench/raw_mujoco.h"
 #include "tests/bench/vehicle.h"
@@ -27,6 +29,7 @@ struct Options {
   std::string spec;
   std::vector<std::string> settings;
   std::string engine;  // empty: a race
+  bool recorded = false;
   long steps = 1000;
   int trials = 15;
 };
@@ -38,18 +41,34 @@ TimedEngine raw_run(const std::string& name, const Bundle& bundle, Pipeline pipe
   return {name, [raw, steps, h = plan.step] { return run_raw(*raw, h, steps); }};
 }
 
-TimedEngine contestant(const std::string& name, const Bundle& bundle) {
+std::unique_ptr<Engine> engine_of(const std::string& name, const Bundle& bundle) {
   const Model& model = bundle.model;
+  if (name == "mujoco") return make_mujoco_engine(model, bundle.mjcf);
+  return make_bsm_engine(
+      model, name == "portable" ? bsm::InstructionSet::kPortable : bsm::best_instruction_set());
+}
+
+TimedEngine contestant(const std::string& name, const Bundle& bundle) {
   if (name == "forward") return raw_run(name, bundle, Pipeline::kForward);
   if (name == "minimal") return raw_run(name, bundle, Pipeline::kMinimal);
-  if (name == "mujoco") return bare_run(make_mujoco_engine(model, bundle.mjcf), model);
-  const bsm::InstructionSet set =
-      name == "portable" ? bsm::InstructionSet::kPortable : bsm::best_instruction_set();
-  return bare_run(make_bsm_engine(model, set), model);
+  return bare_run(engine_of(name, bundle), bundle.model);
+}
+
+/// Records and books as in a run of scsim; what is made of the samples is not in it.
+struct Forgetful : SampleSink {
+  void take(const Observation&, const Books&) override {}
+};
+
+void run_recorded(Engine& engine, const Model& model) {
+  Forgetful sink;
+  RecordedRun(engine, model, sink).advance_until(model.simulation.duration);
 }
 
 int run_alone(const Options& options, const Bundle& bundle) {
-  contestant(options.engine, bundle).run();
+  if (options.recorded)
+    run_recorded(*engine_of(options.engine, bundle), bundle.model);
+  else
+    contestant(options.engine, bundle).run();
   return kExitDone;
 }
 
@@ -119,6 +138,7 @@ int parse_and_run(int argc, char** argv) {
   app.add_option("--set", options.settings, "PATH=VALUE")->take_all()->allow_extra_args(false);
   app.add_option("--engine", options.engine, "run this one and print nothing")
       ->check(one_of({"bsm", "portable", "mujoco", "forward", "minimal"}));
+  app.add_flag("--recorded", options.recorded, "with --engine: record samples and integrate books");
   app.add_option("--steps", options.steps, "of one run")->check(CLI::Range(1, 100'000'000));
   app.add_option("--trials", options.trials, "of each contestant")->check(CLI::Range(1, 10'000));
   if (const std::optional<int> code = parse_command_line(app, argc, argv)) return *code;

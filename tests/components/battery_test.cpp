@@ -35,13 +35,16 @@ std::span<const double> span_of(const Eigen::VectorXd& v) {
   return {v.data(), static_cast<std::size_t>(v.size())};
 }
 
-/// v_B, omega, joint rates and wheel rates differentiated, whatever the attitude chart.
-Eigen::VectorXd accelerations(const Model& model, Engine& engine, const RandomState& state) {
+/// An engine at a state: v_B, omega, joint rates and wheel rates differentiated, whatever the
+/// attitude chart.
+Eigen::VectorXd accelerations(const Model& model, Engine& engine, const RandomState& state,
+                              BookRates* books = nullptr) {
   const StateLayout& at = engine.layout();
   const Eigen::VectorXd x = pack(state, at);
   Eigen::VectorXd rate(x.size());
   engine.hold(inputs_at(model, state.time));
-  engine.derivative(state.time, span_of(x), {rate.data(), static_cast<std::size_t>(rate.size())});
+  engine.derivative(state.time, span_of(x), {rate.data(), static_cast<std::size_t>(rate.size())},
+                    books);
   Eigen::VectorXd all(6 + at.joints + at.wheels);
   all << rate.segment<3>(StateLayout::velocity()), rate.segment<3>(at.rate()),
       rate.segment(at.joint_rate(), at.joints), rate.segment(at.wheel(), at.wheels);
@@ -95,6 +98,33 @@ class Battery : public testing::TestWithParam<const char*> {
 
 TEST_P(Battery, GivesTheSameAccelerationsInBothEngines) {
   expect_same_accelerations(bundle_.model, *bsm_, *mujoco_);
+}
+
+/// What the outside does is found by either engine in its own way, with its own masses.
+TEST_P(Battery, BooksTheSameInBothEngines) {
+  for (const RandomState& state : random_states(bundle_.model, 50)) {
+    BookRates a, b;
+    accelerations(bundle_.model, *bsm_, state, &a);
+    accelerations(bundle_.model, *mujoco_, state, &b);
+    EXPECT_NEAR(a.power, b.power, 1e-11 * (1.0 + std::abs(a.power)));
+    EXPECT_NEAR(a.own_power, b.own_power, 1e-11 * (1.0 + std::abs(a.own_power)));
+    EXPECT_LT((a.force_N - b.force_N).norm(), 1e-11 * (1.0 + a.force_N.norm()));
+    EXPECT_LT((a.torque_PntC_N - b.torque_PntC_N).norm(), 1e-11 * (1.0 + a.torque_PntC_N.norm()));
+  }
+}
+
+/// A recorded run has the very trajectory of the bare one.
+TEST_P(Battery, MovesTheSameWhetherItsBooksAreKeptOrNot) {
+  const auto expect_same = [this](Engine& engine) {
+    for (const RandomState& state : random_states(bundle_.model, 20)) {
+      BookRates books;
+      const Eigen::VectorXd bare = accelerations(bundle_.model, engine, state);
+      EXPECT_EQ(accelerations(bundle_.model, engine, state, &books), bare) << engine.name();
+    }
+  };
+  expect_same(*mujoco_);
+  for (const bsm::InstructionSet set : bsm::instruction_sets())
+    expect_same(*make_bsm_engine(bundle_.model, set));
 }
 
 TEST_P(Battery, KeepsTheHubMatrixSymmetricPositiveDefinite) {

@@ -19,16 +19,14 @@ class LimitedEngine : public Engine {
   const StateLayout& layout() const override { return engine_.layout(); }
   Eigen::VectorXd initial_state() const override { return engine_.initial_state(); }
   void hold(const Inputs& inputs) override { engine_.hold(inputs); }
-  void derivative(double time, std::span<const double> state, std::span<double> rate) override {
+  void derivative(double time, std::span<const double> state, std::span<double> rate,
+                  BookRates* books) override {
     if (--left_ <= 0) exhausted_ = true;
-    engine_.derivative(time, state, rate);
+    engine_.derivative(time, state, rate, books);
   }
   void finish_step(std::span<double> state) override { engine_.finish_step(state); }
-  Observation observe(double time, std::span<const double> state) override {
-    return engine_.observe(time, state);
-  }
-  ExternalRates external_rates(double time, std::span<const double> state) override {
-    return engine_.external_rates(time, state);
+  void observe(double time, std::span<const double> state, Observation& seen) override {
+    engine_.observe(time, state, seen);
   }
   Eigen::MatrixXd mass_matrix(std::span<const double> state) override {
     return engine_.mass_matrix(state);

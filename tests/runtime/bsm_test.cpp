@@ -464,8 +464,8 @@ TEST(Books, ChangeByWhatTheOutsideDoes) {
       return std::span<double>(v.data(), static_cast<std::size_t>(v.size()));
     };
     Eigen::VectorXd at = x;
-    engine->derivative(0.0, span(at), span(rate));
-    const ExternalRates outside = engine->external_rates(0.0, span(at));
+    BookRates outside;
+    engine->derivative(0.0, span(at), span(rate), &outside);
     const double h = 1e-4;
     Eigen::VectorXd ahead = x + h * rate, behind = x - h * rate;
     const Observation a = engine->observe(h, span(ahead));

@@ -310,7 +310,7 @@ TEST(MujocoEngine, HasTheMassMatrixOfItsKineticEnergy) {
 }
 
 // d/dt of what observe() shows, by central differences along the derivative, is what
-// external_rates() says comes from outside.
+// derivative() says comes from outside.
 TEST(MujocoEngine, KeepsItsBooksUnderEveryGravityLaw) {
   for (const GravityLaw law : {GravityLaw::kNone, GravityLaw::kSystemCom, GravityLaw::kBodyCom,
                                GravityLaw::kBodyGradient}) {
@@ -321,7 +321,11 @@ TEST(MujocoEngine, KeepsItsBooksUnderEveryGravityLaw) {
     const double h = 1e-5;  // [s]
     const Observation before = engine->observe(0.0, span(state - h * rate));
     const Observation after = engine->observe(0.0, span(state + h * rate));
-    const ExternalRates outside = engine->external_rates(0.0, span(state));
+    BookRates outside;
+    VectorXd same(rate.size());
+    engine->derivative(0.0, span(state), {same.data(), static_cast<std::size_t>(same.size())},
+                       &outside);
+    EXPECT_EQ(same, rate);
     const double power =
         (after.kinetic + after.potential - before.kinetic - before.potential) / (2 * h);
     const Vector3d force = (after.momentum - before.momentum) / (2 * h);

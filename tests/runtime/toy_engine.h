@@ -39,7 +39,8 @@ class ToyEngine : public Engine {
       efforts_.push_back(inputs[inputs.layout.effort(joint)]);
   }
 
-  void derivative(double time, std::span<const double> state, std::span<double> rate) override {
+  void derivative(double time, std::span<const double> state, std::span<double> rate,
+                  BookRates* books) override {
     const auto y = map(state);
     Eigen::Map<Eigen::VectorXd> dy(rate.data(), static_cast<Eigen::Index>(rate.size()));
     const Vector3d omega = y.segment<3>(layout_.rate());
@@ -62,6 +63,7 @@ class ToyEngine : public Engine {
       dy[layout_.joint() + joint] = y[layout_.joint_rate() + joint];
       dy[layout_.joint_rate() + joint] = efforts_[link] - stiffness * y[layout_.joint() + joint];
     }
+    if (books != nullptr) *books = book_rates(y);
     mischief(time, rate);
   }
 
@@ -74,9 +76,9 @@ class ToyEngine : public Engine {
     final_state.assign(state.begin(), state.end());
   }
 
-  Observation observe(double time, std::span<const double> state) override {
+  void observe(double time, std::span<const double> state, Observation& seen) override {
     const auto y = map(state);
-    Observation seen;
+    seen = {};
     seen.time = time;
     seen.r_BN_N = seen.r_CN_N = y.segment<3>(0);
     seen.v_BN_N = seen.v_CN_N = y.segment<3>(3);
@@ -87,18 +89,15 @@ class ToyEngine : public Engine {
       seen.joint_rate.push_back(y[layout_.joint_rate() + joint]);
     }
     seen.mass = hub_.mass;
-    return seen;
-  }
-
-  ExternalRates external_rates(double, std::span<const double> state) override {
-    const auto y = map(state);
-    const Vector3d omega = y.segment<3>(layout_.rate());
-    return {torque_.dot(omega), hub_.mass * gravity(y.segment<3>(0)), attitude(y) * torque_};
   }
 
   Eigen::MatrixXd mass_matrix(std::span<const double>) override { return {}; }
 
  private:
+  BookRates book_rates(const Eigen::Ref<const Eigen::VectorXd>& y) const {
+    const Vector3d omega = y.segment<3>(layout_.rate());
+    return {torque_.dot(omega), hub_.mass * gravity(y.segment<3>(0)), attitude(y) * torque_};
+  }
   static Eigen::Map<const Eigen::VectorXd> map(std::span<const double> state) {
     return {state.data(), static_cast<Eigen::Index>(state.size())};
   }

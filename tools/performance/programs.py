@@ -21,7 +21,11 @@ EVALUATIONS = BUILD / "bin" / "bench_evaluations"
 
 # libc chooses its copies and sines by processor too; these choose for every processor alike.
 PLAIN_LIBC = "glibc.cpu.hwcaps=-AVX512F,-AVX2,-AVX,-FMA,-FMA4,-BMI2,-ERMS,-FSRM"
-STEP_FUNCTIONS = ("twincraft::propagate_bare*", "twincraft::bench::run_raw*")
+STEP_FUNCTIONS = (
+    "twincraft::propagate_bare*",
+    "twincraft::RecordedRun::advance_until*",
+    "twincraft::bench::run_raw*",
+)
 
 
 class Failed(Exception):
