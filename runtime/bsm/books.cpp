@@ -10,24 +10,43 @@ struct MovingElement {
   double spin_energy;        // [J]
 };
 
-/// @param scale  of mass and inertia: the tank's share, or its rate for what leaves
-MovingElement moving(const MassElement& element, double scale, const LinkPose& pose,
+/// @param share  of its tank
+MovingElement moving(const MassElement& element, double share, const LinkPose& pose,
                      const LinkRate& rate) {
   const Vector3d r_EL = pose.dcm_WL * element.r_EL_L;
   const Vector3d omega_L = pose.dcm_WL.transpose() * rate.omega_LN_W;
-  const Vector3d spin_L = scale * element.I_PntE_L * omega_L;
-  return {scale * element.mass, pose.r_LB_W + r_EL, rate.v_LB_W + rate.omega_LN_W.cross(r_EL),
+  const Vector3d spin_L = share * element.I_PntE_L * omega_L;
+  return {share * element.mass, pose.r_LB_W + r_EL, rate.v_LB_W + rate.omega_LN_W.cross(r_EL),
           pose.dcm_WL * spin_L, 0.5 * omega_L.dot(spin_L)};
 }
 
-/// @param visit  takes every element as it moves  @param scale_of  an element's scale; zero: none
-template <class ScaleOf, class Visit>
-void for_each_moving(const Motion& motion, const Assembly& assembly, const ScaleOf& scale_of,
+/// @param visit  takes every element as it moves
+template <class Visit>
+void for_each_moving(const Motion& motion, const Assembly& assembly, std::span<const double> shares,
                      const Visit& visit) {
   for (std::size_t i = 0; i < assembly.links.size(); ++i)
     for (const MassElement& element : assembly.links[i].elements)
-      if (const double scale = scale_of(element); scale != 0.0)
-        visit(moving(element, scale, motion.poses[i], motion.rates[i]));
+      visit(moving(element, element.tank < 0 ? 1.0 : shares[static_cast<std::size_t>(element.tank)],
+                   motion.poses[i], motion.rates[i]));
+}
+
+/// What a link's loss is more than that of a point at its origin.
+void add_extended(const Draining& draining, const LinkPose& pose, const LinkRate& rate,
+                  std::span<const double> share_rates, const Vector3d& r_LC, const Vector3d& v_LC,
+                  Leaving& leaving) {
+  Vector3d moment_L = Vector3d::Zero();  // [kg m/s]
+  Matrix3d J_L = Matrix3d::Zero();       // [kg m^2/s]
+  for (const Draining::Part& part : draining.parts) {
+    moment_L += share_rates[part.tank] * part.full.first_moment;
+    J_L += share_rates[part.tank] * part.full.J_L;
+  }
+  const Vector3d& omega = rate.omega_LN_W;
+  const Vector3d moment = pose.dcm_WL * moment_L;
+  const Vector3d spin = pose.dcm_WL * (J_L * (pose.dcm_WL.transpose() * omega));
+  const Vector3d turning = omega.cross(moment);
+  leaving.momentum_B += turning;
+  leaving.H_PntC_B += r_LC.cross(turning) + moment.cross(v_LC) + spin;
+  leaving.kinetic += 0.5 * omega.dot(spin) + rate.v_LB_W.dot(turning);
 }
 
 }  // namespace
@@ -38,10 +57,13 @@ Center center_of(const Tree& tree, const Motion& motion) {
     const LinkConstants& link = tree.links[i];
     const LinkPose& pose = motion.poses[i];
     const LinkRate& rate = motion.rates[i];
-    const Vector3d moment = pose.dcm_WL * link.first_moment;
     center.mass += link.mass;
-    center.r_CB_B += link.mass * pose.r_LB_W + moment;
-    center.v_CB_B += link.mass * rate.v_LB_W + rate.omega_LN_W.cross(moment);
+    center.r_CB_B += link.mass * pose.r_LB_W;
+    center.v_CB_B += link.mass * rate.v_LB_W;
+    if (link.first_moment.isZero(0.0)) continue;  // such as a slosh particle
+    const Vector3d moment = pose.dcm_WL * link.first_moment;
+    center.r_CB_B += moment;
+    center.v_CB_B += rate.omega_LN_W.cross(moment);
   }
   center.r_CB_B /= center.mass;
   center.v_CB_B /= center.mass;
@@ -50,19 +72,16 @@ Center center_of(const Tree& tree, const Motion& motion) {
 
 Totals sum_up(const Motion& motion, const Assembly& assembly, std::span<const double> shares,
               std::span<const double> rotor_speed) {
-  const auto share_of = [shares](const MassElement& element) {
-    return element.tank < 0 ? 1.0 : shares[static_cast<std::size_t>(element.tank)];
-  };
   Totals totals;
   Vector3d momentum_B = Vector3d::Zero();
-  for_each_moving(motion, assembly, share_of, [&](const MovingElement& e) {
+  for_each_moving(motion, assembly, shares, [&](const MovingElement& e) {
     totals.mass += e.mass;
     totals.r_CB_B += e.mass * e.r_EB;
     momentum_B += e.mass * e.v_E;
   });
   totals.r_CB_B /= totals.mass;
   totals.v_CB_B = momentum_B / totals.mass;
-  for_each_moving(motion, assembly, share_of, [&](const MovingElement& e) {
+  for_each_moving(motion, assembly, shares, [&](const MovingElement& e) {
     const Vector3d v_EC = e.v_E - totals.v_CB_B;
     const Vector3d H = (e.r_EB - totals.r_CB_B).cross(e.mass * v_EC) + e.spin;
     totals.H_PntC_B += H;
@@ -83,20 +102,25 @@ Totals sum_up(const Motion& motion, const Assembly& assembly, std::span<const do
   return totals;
 }
 
-// All totals are sums over elements, scaled by their masses, but for the motion of C; and at fixed
-// motion that drops out of H, because neither sum of m (r - r_C) nor of m (v - v_C) is anything.
-Leaving sum_up_leaving(const Motion& motion, const Assembly& assembly,
-                       std::span<const double> share_rates, const Center& center) {
-  const auto rate_of = [share_rates](const MassElement& element) {
-    return element.tank < 0 ? 0.0 : share_rates[static_cast<std::size_t>(element.tank)];
-  };
+// All totals are sums over what a link carries, in proportion to its mass, but for the motion of C;
+// and at fixed motion that drops out of H, because neither sum of m (r - r_C) nor of m (v - v_C) is
+// anything.
+Leaving sum_up_leaving(const Motion& motion, const Tree& tree, std::span<const double> share_rates,
+                       const Center& center) {
   Leaving leaving;
-  for_each_moving(motion, assembly, rate_of, [&](const MovingElement& e) {
-    leaving.mass += e.mass;
-    leaving.momentum_B += e.mass * e.v_E;
-    leaving.H_PntC_B += (e.r_EB - center.r_CB_B).cross(e.mass * (e.v_E - center.v_CB_B)) + e.spin;
-    leaving.kinetic += 0.5 * e.mass * e.v_E.squaredNorm() + e.spin_energy;
-  });
+  for (const Draining& draining : tree.draining) {
+    double mass = 0.0;  // [kg/s]
+    for (const Draining::Part& part : draining.parts)
+      mass += share_rates[part.tank] * part.full.mass;
+    const LinkPose& pose = motion.poses[draining.link];
+    const LinkRate& rate = motion.rates[draining.link];
+    const Vector3d r_LC = pose.r_LB_W - center.r_CB_B, v_LC = rate.v_LB_W - center.v_CB_B;
+    leaving.mass += mass;
+    leaving.momentum_B += mass * rate.v_LB_W;
+    leaving.H_PntC_B += r_LC.cross(mass * v_LC);
+    leaving.kinetic += 0.5 * mass * rate.v_LB_W.squaredNorm();
+    if (!draining.is_point) add_extended(draining, pose, rate, share_rates, r_LC, v_LC, leaving);
+  }
   return leaving;
 }
 

@@ -36,8 +36,8 @@ struct Leaving {
 };
 
 /// @param share_rates  of every tank [1/s]  @param center  of the same motion
-Leaving sum_up_leaving(const Motion& motion, const Assembly& assembly,
-                       std::span<const double> share_rates, const Center& center);
+Leaving sum_up_leaving(const Motion& motion, const Tree& tree, std::span<const double> share_rates,
+                       const Center& center);
 
 /// Centre of mass, momenta and kinetic energy in N; needs o.r_BN_N and o.v_BN_N.
 void fill_books(const Totals& totals, const Matrix3d& dcm_NB, Observation& o);

@@ -64,8 +64,8 @@ class BsmEngine final : public Engine {
   void derivative(double time, std::span<const double> state, std::span<double> rate,
                   BookRates* books) override {
     drain(time);
+    if (books != nullptr) return evaluate_and_book(time, state, rate, *books);
     kernel_->derivative(state.data(), rate.data());
-    if (books != nullptr) *books = book_rates(time, state);
   }
 
   void finish_step(std::span<double> state) override { kernel_->finish_step(state.data()); }
@@ -78,8 +78,7 @@ class BsmEngine final : public Engine {
     move_links(plan_.tree, x.joint_position, x.joint_rate, x.omega_BN_B, motion_);
     fill_books(sum_up(motion_, assembly_, shares_, x.wheel_rate), x.dcm_NB, seen);
     seen.springs = spring_energy(plan_.tree, x.joint_position);
-    seen.potential =
-        seen.springs + forces_.potential(x.dcm_NB.transpose() * x.r_BN_N, motion_.poses);
+    seen.potential = seen.springs + forces_.potential(x.r_BN_B(), motion_.poses);
   }
 
   Eigen::MatrixXd mass_matrix(std::span<const double> state) override {
@@ -114,7 +113,17 @@ class BsmEngine final : public Engine {
  private:
   struct State : UnpackedState {
     Matrix3d dcm_NB;
+
+    Vector3d r_BN_B() const { return dcm_NB.transpose() * r_BN_N; }
+    Vector3d v_BN_B() const { return dcm_NB.transpose() * v_BN_N; }
   };
+
+  // Apart from derivative(), which without it is a jump into the kernel.
+  [[gnu::noinline]] void evaluate_and_book(double time, std::span<const double> state,
+                                           std::span<double> rate, BookRates& books) {
+    kernel_->derivative(state.data(), rate.data());
+    books = book_rates(time, state);
+  }
 
   BookRates book_rates(double time, std::span<const double> state) {
     drain_all(time);
@@ -136,13 +145,12 @@ class BsmEngine final : public Engine {
   }
 
   void add_forces(const State& x, const Center& center, BookRates& rates) {
-    Work work =
-        forces_.apply(x.dcm_NB.transpose() * x.r_BN_N, motion_.poses, motion_.rates, wrenches_);
+    Work work = forces_.apply(x.r_BN_B(), motion_.poses, motion_.rates, wrenches_);
     // A nozzle flows only while its thrust acts.
     if (jets_.acts()) work += jets_.add(motion_.poses, motion_.rates, wrenches_);
     const WrenchSums sums = twincraft::sum_up(wrenches_, motion_.poses, motion_.rates);
     const Vector3d& force_B = sums.all.force_W;
-    rates.power += work.power + work.force_W.dot(x.dcm_NB.transpose() * x.v_BN_N);
+    rates.power += work.power + work.force_W.dot(x.v_BN_B());
     rates.own_power += sums.power - force_B.dot(center.v_CB_B);
     rates.force_N += x.dcm_NB * force_B;
     rates.torque_PntC_N += x.dcm_NB * (sums.all.torque_PntB_W - center.r_CB_B.cross(force_B));
@@ -151,12 +159,11 @@ class BsmEngine final : public Engine {
   /// Propellant takes its own energy and momentum along.
   void add_leaving(const State& x, const Center& center, BookRates& rates) const {
     const std::span<const double> share_rates = propellant_.share_rates();
-    const Leaving leaving = sum_up_leaving(motion_, assembly_, share_rates, center);
-    const Vector3d v_BN_B = x.dcm_NB.transpose() * x.v_BN_N;
-    rates.power +=
-        leaving.kinetic + leaving.momentum_B.dot(v_BN_B) +
-        0.5 * leaving.mass * v_BN_B.squaredNorm() +
-        forces_.potential_rate(x.dcm_NB.transpose() * x.r_BN_N, motion_.poses, share_rates);
+    const Vector3d v_BN_B = x.v_BN_B();
+    const Leaving leaving = sum_up_leaving(motion_, plan_.tree, share_rates, center);
+    rates.power += leaving.kinetic + leaving.momentum_B.dot(v_BN_B) +
+                   0.5 * leaving.mass * v_BN_B.squaredNorm() +
+                   forces_.potential_rate(x.r_BN_B(), motion_.poses, share_rates);
     rates.own_power += leaving.kinetic - leaving.momentum_B.dot(center.v_CB_B) +
                        0.5 * leaving.mass * center.v_CB_B.squaredNorm();
     rates.force_N += x.dcm_NB * leaving.momentum_B + leaving.mass * x.v_BN_N;
@@ -170,7 +177,9 @@ class BsmEngine final : public Engine {
 
   /// What depends on mass follows the tanks: in a step the kernel alone, else all.
   void drain(double time) {
-    if (propellant_.is_idle() || time == drained_to_) return;
+    if (!propellant_.is_idle() && time != drained_to_) drain_to(time);
+  }
+  [[gnu::noinline]] void drain_to(double time) {
     drained_to_ = time;
     shares_ = propellant_.shares(time);
     plan_.set_shares(shares_);

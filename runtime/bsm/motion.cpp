@@ -13,12 +13,14 @@ Motion at_rest(const Tree& tree) {
 void move_link(const Tree& tree, std::size_t i, std::span<const double> q,
                std::span<const double> q_dot, Motion& motion) {
   const LinkConstants& link = tree.links[i];
+  const bool on_hub = link.parent == 0;  // whose axes are the working axes
   const auto p = static_cast<std::size_t>(link.parent);
   const LinkPose& parent = motion.poses[p];
-  const Vector3d axis = parent.dcm_WL * link.axis_P;
-  Vector3d r_HP = parent.dcm_WL * link.r_HP_P;
+  const Vector3d axis = on_hub ? link.axis_P : Vector3d(parent.dcm_WL * link.axis_P);
+  Vector3d r_HP = on_hub ? link.r_HP_P : Vector3d(parent.dcm_WL * link.r_HP_P);
   Matrix3d dcm_PL = link.turn_fixed;
-  LinkRate rate = motion.rates[p];
+  LinkRate& rate = motion.rates[i];
+  rate = motion.rates[p];
   if (link.kind == JointKind::kHinge) {
     dcm_PL += std::cos(q[i - 1]) * link.turn_cos + std::sin(q[i - 1]) * link.turn_sin;
     rate.v_LB_W += rate.omega_LN_W.cross(r_HP);
@@ -27,8 +29,10 @@ void move_link(const Tree& tree, std::size_t i, std::span<const double> q,
     r_HP += q[i - 1] * axis;
     rate.v_LB_W += rate.omega_LN_W.cross(r_HP) + q_dot[i - 1] * axis;
   }
-  motion.poses[i] = {parent.dcm_WL * dcm_PL, parent.r_LB_W + r_HP};
-  motion.rates[i] = rate;
+  if (on_hub)
+    motion.poses[i] = {dcm_PL, r_HP};
+  else
+    motion.poses[i] = {parent.dcm_WL * dcm_PL, parent.r_LB_W + r_HP};
 }
 
 void move_links(const Tree& tree, std::span<const double> q, std::span<const double> q_dot,

@@ -54,7 +54,10 @@ void prepare_mass(const Link& link, std::size_t index, const Matrix3d& rotor_ine
                                   : part_of(static_cast<std::size_t>(element.tank), draining));
   }
   MassSums full = draining.fixed;
-  for (const Draining::Part& part : draining.parts) full.add(1.0, part.full);
+  for (const Draining::Part& part : draining.parts) {
+    full.add(1.0, part.full);
+    draining.is_point = draining.is_point && part.full.J_L.isZero(0.0);
+  }
   put(full, tree.links[index]);
   if (draining.parts.empty()) return;
   tree.links[index].drains = true;

@@ -56,6 +56,7 @@ struct Draining {
     MassSums full;
   };
   std::size_t link = 0;
+  bool is_point = true;  // all that drains is at the link's origin and has no inertia there
   MassSums fixed;
   std::vector<Part> parts;
 };

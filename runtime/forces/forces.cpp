@@ -13,11 +13,6 @@ bool is_per_body(GravityLaw law) {
 
 }  // namespace
 
-Vector3d point_gravity(double mu, const Vector3d& r) {
-  const double r2 = r.squaredNorm();
-  return r * (-mu / (r2 * std::sqrt(r2)));
-}
-
 Vector3d gravity_difference(double mu, const Vector3d& r, const Vector3d& x) {
   const double r2 = r.squaredNorm();
   const double q = x.dot(x + 2.0 * r) / r2;  // |r + x|^2 = r^2 (1 + q)
@@ -32,6 +27,7 @@ WrenchSums sum_up(std::span<const Wrench> wrenches, std::span<const LinkPose> li
   WrenchSums sums;
   for (std::size_t i = 0; i < wrenches.size(); ++i) {
     const Wrench& wrench = wrenches[i];
+    if (wrench.force_W.isZero(0.0) && wrench.torque_PntB_W.isZero(0.0)) continue;
     const Vector3d& omega = rates[i].omega_LN_W;
     const Vector3d v_B = rates[i].v_LB_W - omega.cross(links[i].r_LB_W);  // of its point at B
     sums.all.force_W += wrench.force_W;

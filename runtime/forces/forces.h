@@ -8,6 +8,7 @@
 // Tested by tests/runtime/forces_test.cpp.
 #pragma once
 
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -134,7 +135,10 @@ class ForceModel {
 };
 
 /// g(r) of a point mass [m/s^2].
-Vector3d point_gravity(double mu, const Vector3d& r);
+inline Vector3d point_gravity(double mu, const Vector3d& r) {
+  const double r2 = r.squaredNorm();
+  return r * (-mu / (r2 * std::sqrt(r2)));
+}
 
 /// g(r + x) - g(r) without the cancellation of subtracting them (Battin's form): relative error at
 /// rounding level for any |x| < |r|.

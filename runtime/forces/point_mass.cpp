@@ -1,8 +1,6 @@
 // See point_mass.h. Tested by tests/runtime/point_mass_test.cpp.
 #include "runtime/forces/point_mass.h"
 
-#include "runtime/forces/forces.h"
-
 namespace twincraft {
 namespace {
 
@@ -41,15 +39,14 @@ void PointMassEngine::hold(const Inputs& inputs) {
 
 void PointMassEngine::derivative(double, std::span<const double> state, std::span<double> rate,
                                  BookRates* books) {
+  if (books != nullptr) book(state, *books);
   Output(rate.data() + StateLayout::position()) = velocity(state);
   Output(rate.data() + StateLayout::velocity()) = acceleration(position(state), velocity(state));
-  if (books == nullptr) return;
-  *books = {.power = force_N_.dot(velocity(state)),
-            .force_N = force_N_ + mass() * gravity(position(state))};
 }
 
-Vector3d PointMassEngine::gravity(const Vector3d& r_BN_N) const {
-  return mu_ == 0.0 ? Vector3d(Vector3d::Zero()) : point_gravity(mu_, r_BN_N + r_CB_N_);
+void PointMassEngine::book(std::span<const double> state, BookRates& books) {
+  books = {.power = force_N_.dot(velocity(state)),
+           .force_N = force_N_ + mass() * gravity(position(state))};
 }
 
 void PointMassEngine::observe(double time, std::span<const double> state, Observation& seen) {

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "runtime/engine/engine.h"
+#include "runtime/forces/forces.h"
 
 namespace twincraft {
 
@@ -25,10 +26,14 @@ class PointMassEngine : public Engine {
   virtual Vector3d acceleration(const Vector3d& r_BN_N, const Vector3d& v_BN_N) = 0;
   virtual double mass() const = 0;  // [kg]
 
-  Vector3d gravity(const Vector3d& r_BN_N) const;            // [m/s^2] where the mass is
+  Vector3d gravity(const Vector3d& r_BN_N) const {  // [m/s^2] where the mass is
+    return mu_ == 0.0 ? Vector3d(Vector3d::Zero()) : point_gravity(mu_, r_BN_N + r_CB_N_);
+  }
   const Vector3d& held_force_N() const { return force_N_; }  // [N] of all loads
 
  private:
+  [[gnu::noinline]] void book(std::span<const double> state, BookRates& books);
+
   VehicleState initial_;
   double mu_;        // [m^3/s^2] zero without gravity
   Vector3d r_CB_N_;  // [m] where in the hub the mass is
