@@ -204,7 +204,7 @@ TEST_F(Attribute, CanBeInterrupted) {
   const std::string spec = folder.write("drifter.yaml", kDrifter);
   const ProgramResult result = run({spec, "--duration", "1.0e9 s", "--set",  //
                                     "simulation.record=10000 s", "--progress", "always"},
-                                   test::signalled_after("both    [", SIGINT));
+                                   test::signalled_after(R"(both    \[)", SIGINT));
   EXPECT_EQ(result.exit_code, 130) << result.err;
   EXPECT_EQ(report()["complete"], false);
 }

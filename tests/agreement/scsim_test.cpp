@@ -300,27 +300,27 @@ TEST_F(Scsim, ExitsWithFourAndSaysWhereWhenNumbersBreakDown) {
 
 class Interrupted : public Scsim, public testing::WithParamInterface<std::pair<int, int>> {
  protected:
-  /// A run of some hours, interrupted when it has worked for long enough that both engines have
-  /// flown some slices and the bar, which comes after half a second, would be shown.
-  /// Sanitizers make the slices longer.
-  ProgramResult interrupt(const std::string& progress) {
-    const auto send = [](pid_t program) {
-#ifdef TWINCRAFT_SANITIZED
-      constexpr double kWork = 6.0;  // [s], and no program works for longer than it lasts
-#else
-      constexpr double kWork = 1.5;
-#endif
-      test::await_work(program, kWork);
-      kill(program, GetParam().first);
-    };
+  /// A run of some hours.
+  ProgramResult interrupt(const std::string& progress, const test::ProgramInput& input) {
     return run_spinner({"--duration", "1.0e9 s", "--set", "simulation.record=100 s",  //
                         "--progress", progress},
-                       {"", send});
+                       input);
+  }
+  test::ProgramInput after(const std::string& told) const {
+    return test::signalled_after(told, GetParam().first);
+  }
+  /// For a run that tells nothing.
+  test::ProgramInput after_work(double seconds) const {
+    return {.while_running = [seconds](pid_t program) {
+      test::await_work(program, seconds);
+      kill(program, GetParam().first);
+    }};
   }
 };
 
 TEST_P(Interrupted, WritesWhatItHasAndSaysItIsIncomplete) {
-  const ProgramResult result = interrupt("never");
+  // Both engines have come that far, which is ten samples and more.
+  const ProgramResult result = interrupt("always", after(R"(both .* t = (\d{4}|\S+e\+\d+) s of)"));
   EXPECT_EQ(result.exit_code, GetParam().second) << result.err;
   EXPECT_EQ(report()["complete"], false);
   EXPECT_EQ(report()["verdict"], "interrupted");
@@ -335,8 +335,10 @@ TEST_P(Interrupted, WritesWhatItHasAndSaysItIsIncomplete) {
 }
 
 TEST_P(Interrupted, ShowsProgressOnlyOnATerminalOrWhenToldTo) {
-  EXPECT_THAT(interrupt("auto").err, Not(HasSubstr("[")));
-  EXPECT_THAT(interrupt("always").err, HasSubstr("both    ["));
+  EXPECT_THAT(interrupt("always", after(R"(both    \[)")).err, HasSubstr("both    ["));
+  // The bar comes after half a second, and two engines at once work for at most twice as long as
+  // that lasts.
+  EXPECT_THAT(interrupt("auto", after_work(2.0)).err, Not(HasSubstr("[")));
 }
 
 INSTANTIATE_TEST_SUITE_P(BySignal, Interrupted,

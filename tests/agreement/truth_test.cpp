@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "tests/support/run_program.h"
@@ -115,9 +114,7 @@ TEST_F(Truth, JudgesWhatEachEngineConserves) {
 }
 
 TEST_F(Truth, FindsTheOrderOfTheMethodInASweepAndSaysWhatExceeds) {
-  const std::string base = TWINCRAFT_ROOT "/models/nesc/case_8a.yaml";
-  std::ifstream in(base);
-  const std::string spec{std::istreambuf_iterator<char>(in), {}};
+  const std::string spec = test::read_file(TWINCRAFT_ROOT "/models/nesc/case_8a.yaml");
   const std::string file = folder.write(
       "sweep.yaml", spec + "study: {sweep: [{set: simulation.step, values: [40 s, 20 s]}]}\n");
   const ProgramResult result =

@@ -1,48 +1,163 @@
-// See run_program.h. Standard streams are files in a temporary folder, so that no pipe can fill up
-// and block the program.
+// See run_program.h. Both outputs are pipes that are read as they fill, so the program never waits
+// for room; standard input is a file in memory.
 #include "tests/support/run_program.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <signal.h>
 #include <spawn.h>
+#include <sys/mman.h>
 #include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
 
-#include <chrono>
+#include <array>
+#include <cerrno>
 #include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <regex>
 #include <stdexcept>
-#include <thread>
+#include <system_error>
+#include <utility>
 
 namespace twincraft::test {
 namespace {
 
-pid_t spawn(const std::string& program, const std::vector<std::string>& arguments,
-            const TemporaryFolder& streams) {
-  std::vector<std::string> words{program};
-  words.insert(words.end(), arguments.begin(), arguments.end());
-  std::vector<char*> argv;
-  for (std::string& word : words) argv.push_back(word.data());
-  argv.push_back(nullptr);
+// [s] Nothing awaited takes so long, however busy the machine is.
+constexpr int kHang = 480;
 
-  const std::string in = streams.path() + "/in";
-  const std::string out = streams.path() + "/out";
-  const std::string err = streams.path() + "/err";
-  constexpr int kWrite = O_WRONLY | O_CREAT | O_TRUNC;
-  posix_spawn_file_actions_t files;
-  posix_spawn_file_actions_init(&files);
-  posix_spawn_file_actions_addopen(&files, STDIN_FILENO, in.c_str(), O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, out.c_str(), kWrite, 0600);
-  posix_spawn_file_actions_addopen(&files, STDERR_FILENO, err.c_str(), kWrite, 0600);
-  pid_t child = 0;
-  const int error = posix_spawn(&child, program.c_str(), &files, nullptr, argv.data(), environ);
-  posix_spawn_file_actions_destroy(&files);
-  if (error != 0) throw std::runtime_error("cannot start " + program);
-  return child;
+int checked(int result, const char* what) {
+  if (result < 0) throw std::system_error(errno, std::generic_category(), what);
+  return result;
 }
+
+/// Closed when it goes, and never passed on to a program that another thread starts.
+class Descriptor {
+ public:
+  Descriptor() = default;
+  explicit Descriptor(int number) : number_(number) {}
+  Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
+  Descriptor& operator=(Descriptor&& other) noexcept {
+    std::swap(number_, other.number_);
+    return *this;
+  }
+  ~Descriptor() { close(); }
+
+  int get() const { return number_; }
+  void close() {
+    if (number_ >= 0) ::close(number_);
+    number_ = -1;
+  }
+
+ private:
+  int number_ = -1;
+};
+
+struct Pipe {
+  Descriptor read, write;
+  Pipe() {
+    std::array<int, 2> ends{};
+    checked(::pipe2(ends.data(), O_CLOEXEC), "pipe");
+    read = Descriptor(ends[0]);
+    write = Descriptor(ends[1]);
+  }
+};
+
+Descriptor file_in_memory(const std::string& text) {
+  Descriptor file(checked(memfd_create("standard input", MFD_CLOEXEC), "memfd_create"));
+  for (std::size_t done = 0; done < text.size();)
+    done += static_cast<std::size_t>(checked(
+        static_cast<int>(::write(file.get(), text.data() + done, text.size() - done)), "write"));
+  checked(static_cast<int>(lseek(file.get(), 0, SEEK_SET)), "lseek");
+  return file;
+}
+
+/// A program that runs, and what it has written so far.
+class Running {
+ public:
+  Running(const std::string& program, const std::vector<std::string>& arguments,
+          const ProgramInput& input) {
+    const Descriptor in = file_in_memory(input.standard_input);
+    Pipe out, err;
+    child_ = start(program, arguments, input, {in.get(), out.write.get(), err.write.get()});
+    out_ = std::move(out.read);
+    err_ = std::move(err.read);
+  }
+
+  pid_t id() const { return child_; }
+
+  /// Returns once it has written this to standard error.
+  void await(const std::string& awaited) {
+    const std::regex pattern(awaited);
+    while (!std::regex_search(told_.err, pattern)) {
+      if (read_more(kHang)) continue;
+      kill(child_, SIGKILL);
+      waitpid(child_, nullptr, 0);
+      throw std::runtime_error("no `" + awaited + "` on standard error: " + told_.err);
+    }
+  }
+
+  ProgramResult finish() {
+    constexpr int kForever = -1;
+    while (read_more(kForever)) continue;
+    int status = 0;
+    while (waitpid(child_, &status, 0) < 0)
+      if (errno != EINTR) throw std::runtime_error("waitpid failed");
+    told_.exit_code = WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
+    return std::move(told_);
+  }
+
+ private:
+  static pid_t start(const std::string& program, const std::vector<std::string>& arguments,
+                     const ProgramInput& input, const std::array<int, 3>& streams) {
+    std::vector<std::string> words{program};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    std::vector<char*> argv;
+    for (std::string& word : words) argv.push_back(word.data());
+    argv.push_back(nullptr);
+
+    using Output = ProgramInput::Output;
+    posix_spawn_file_actions_t files;
+    posix_spawn_file_actions_init(&files);
+    for (int i = 0; i < 3; ++i)
+      posix_spawn_file_actions_adddup2(&files, streams.at(static_cast<std::size_t>(i)), i);
+    if (input.output == Output::kClosed) posix_spawn_file_actions_addclose(&files, STDOUT_FILENO);
+    if (input.output == Output::kFullDevice)
+      posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/full", O_WRONLY, 0);
+    if (!input.folder.empty()) posix_spawn_file_actions_addchdir_np(&files, input.folder.c_str());
+    pid_t child = 0;
+    const int error = posix_spawn(&child, program.c_str(), &files, nullptr, argv.data(), environ);
+    posix_spawn_file_actions_destroy(&files);
+    if (error != 0) throw std::runtime_error("cannot start " + program);
+    return child;
+  }
+
+  /// Blocks until the program writes or closes something.
+  /// @return false when both outputs are closed, or nothing came for `seconds`
+  bool read_more(int seconds) {
+    std::array<pollfd, 2> ends{{{out_.get(), POLLIN, 0}, {err_.get(), POLLIN, 0}}};
+    if (out_.get() < 0 && err_.get() < 0) return false;
+    const int ready = ::poll(ends.data(), ends.size(), seconds < 0 ? -1 : 1000 * seconds);
+    if (ready < 0 && errno == EINTR) return true;
+    if (checked(ready, "poll") == 0) return false;
+    if (ends[0].revents != 0) take(out_, told_.out);
+    if (ends[1].revents != 0) take(err_, told_.err);
+    return true;
+  }
+
+  static void take(Descriptor& from, std::string& to) {
+    std::array<char, 1U << 16U> buffer;
+    const ssize_t count = ::read(from.get(), buffer.data(), buffer.size());
+    if (count > 0) to.append(buffer.data(), static_cast<std::size_t>(count));
+    if (count == 0) from.close();
+    if (count < 0 && errno != EINTR) checked(-1, "read");
+  }
+
+  pid_t child_ = 0;
+  Descriptor out_, err_;
+  ProgramResult told_;
+};
 
 bool has_ended(pid_t child) {
   siginfo_t info{};  // si_pid stays 0 while it runs
@@ -50,58 +165,76 @@ bool has_ended(pid_t child) {
          info.si_pid != 0;
 }
 
-/// Returns once the program has written `words` to standard error.
-void await_words(const std::string& words, pid_t child, const TemporaryFolder& streams) {
-  using Clock = std::chrono::steady_clock;
-  constexpr std::chrono::minutes kHangGuard{8};  // nothing awaited takes seconds on an idle machine
-  const Clock::time_point begin = Clock::now();
-  while (true) {
-    const bool ended = has_ended(child);  // before the look: what it wrote last is still seen
-    const std::string told = streams.read("err");
-    if (told.find(words) != std::string::npos) return;
-    if (!ended && Clock::now() - begin < kHangGuard) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
-      continue;
-    }
-    kill(child, SIGKILL);
-    waitpid(child, nullptr, 0);
-    throw std::runtime_error("no `" + words + "` on standard error: " + told);
+/// Holds SIGCHLD back until it is asked for.
+class HeldSignal {
+ public:
+  HeldSignal() {
+    sigemptyset(&held_);
+    sigaddset(&held_, SIGCHLD);
+    pthread_sigmask(SIG_BLOCK, &held_, &before_);
   }
-}
+  ~HeldSignal() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+  HeldSignal(const HeldSignal&) = delete;
+  HeldSignal& operator=(const HeldSignal&) = delete;
 
-int wait_for(pid_t child) {
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0) {
-    if (errno != EINTR) throw std::runtime_error("waitpid failed");
+  /// Blocks until it comes. @return false when it did not
+  bool await(int seconds) const {
+    const timespec limit{seconds, 0};
+    return sigtimedwait(&held_, nullptr, &limit) > 0;
   }
-  return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
-}
+
+ private:
+  sigset_t held_{}, before_{};
+};
+
+/// Sends SIGCHLD to this process when a program has worked for so long, as its end does.
+class WorkTimer {
+ public:
+  WorkTimer(pid_t program, double seconds) {
+    clockid_t clock{};
+    if (clock_getcpuclockid(program, &clock) != 0) throw std::runtime_error("no such program");
+    sigevent event{};
+    event.sigev_notify = SIGEV_SIGNAL;
+    event.sigev_signo = SIGCHLD;
+    checked(timer_create(clock, &event, &timer_), "timer_create");
+    itimerspec when{};
+    when.it_value.tv_sec = static_cast<time_t>(seconds);
+    when.it_value.tv_nsec =
+        static_cast<long>(1.0e9 * (seconds - static_cast<double>(when.it_value.tv_sec)));
+    checked(timer_settime(timer_, TIMER_ABSTIME, &when, nullptr), "timer_settime");
+  }
+  ~WorkTimer() { timer_delete(timer_); }
+  WorkTimer(const WorkTimer&) = delete;
+  WorkTimer& operator=(const WorkTimer&) = delete;
+
+ private:
+  timer_t timer_{};
+};
 
 }  // namespace
 
 ProgramResult run_program(const std::string& program, const std::vector<std::string>& arguments,
                           const ProgramInput& input) {
-  const TemporaryFolder streams;
-  streams.write("in", input.standard_input);
-  const pid_t child = spawn(program, arguments, streams);
-  if (!input.awaited.empty()) await_words(input.awaited, child, streams);
-  if (input.while_running) input.while_running(child);
-  const int exit_code = wait_for(child);
-  return {exit_code, streams.read("out"), streams.read("err")};
+  Running running(program, arguments, input);
+  if (!input.awaited.empty()) running.await(input.awaited);
+  if (input.while_running) input.while_running(running.id());
+  return running.finish();
 }
 
 void await_work(pid_t program, double seconds) {
-  clockid_t clock{};
-  if (clock_getcpuclockid(program, &clock) != 0) throw std::runtime_error("no such program");
-  timespec worked{};
-  while (!has_ended(program) && clock_gettime(clock, &worked) == 0 &&
-         static_cast<double>(worked.tv_sec) + 1.0e-9 * static_cast<double>(worked.tv_nsec) <
-             seconds)
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  const HeldSignal signal;  // before the look: an end from here on is not missed
+  if (has_ended(program)) return;
+  const WorkTimer timer(program, seconds);
+  if (!signal.await(kHang)) throw std::runtime_error("the program neither works nor ends");
 }
 
 ProgramInput signalled_after(const std::string& awaited, int signal) {
-  return {"", [signal](pid_t program) { kill(program, signal); }, awaited};
+  return {.while_running = [signal](pid_t program) { kill(program, signal); }, .awaited = awaited};
+}
+
+std::string read_file(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 TemporaryFolder::TemporaryFolder() {
@@ -122,8 +255,7 @@ std::string TemporaryFolder::write(const std::string& name, const std::string& t
 }
 
 std::string TemporaryFolder::read(const std::string& name) const {
-  std::ifstream file(path_ + "/" + name, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
+  return read_file(std::filesystem::path(path_) / name);
 }
 
 bool TemporaryFolder::has(const std::string& name) const {

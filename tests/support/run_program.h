@@ -1,8 +1,10 @@
-// Runs one of our programs as a user would: arguments, standard input, both outputs, exit code.
+// Runs one of our programs as a user would: arguments, standard input, both outputs, exit code. No
+// shell stands between, and nothing sleeps: what is waited for announces itself.
 #pragma once
 
 #include <sys/types.h>
 
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
@@ -16,26 +18,33 @@ struct ProgramResult {
 };
 
 struct ProgramInput {
-  std::string standard_input;
+  std::string standard_input = {};
   /// Called while the program runs, with its process id; for tests that send it a signal.
-  std::function<void(pid_t)> while_running;
-  /// What the program has written to standard error before that; empty: nothing need be.
+  std::function<void(pid_t)> while_running = {};
+  /// What the program has written to standard error before that, a regular expression; empty:
+  /// nothing need be.
   std::string awaited = {};
+  std::filesystem::path folder = {};  // where it runs; empty: here
+  /// Where standard output goes instead of into the result.
+  enum class Output { kKept, kClosed, kFullDevice } output = Output::kKept;
 };
 
 /// A program that is sent `signal` once it has written `awaited` to standard error. It says that it
 /// has got so far, so the machine may be as slow as it likes.
 ProgramInput signalled_after(const std::string& awaited, int signal);
 
-/// Returns once `program`, which has one thread at work, has had so much processor time [s], or has
-/// ended.
+/// Returns once `program` has had so much processor time [s], or has ended. The kernel counts it
+/// and tells.
 void await_work(pid_t program, double seconds);
 
 /// @param program    path of the executable
-/// @throws std::runtime_error when it can not be started, or ends or hangs without writing what is
-///         awaited
+/// @throws std::runtime_error when it can not be started, ends without writing what is awaited, or
+///         is silent for minutes before it does
 ProgramResult run_program(const std::string& program, const std::vector<std::string>& arguments,
                           const ProgramInput& input = {});
+
+/// The bytes of a file; empty when there is none.
+std::string read_file(const std::filesystem::path& path);
 
 /// A folder of its own that is removed again with everything in it.
 class TemporaryFolder {
