@@ -8,70 +8,63 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <ostream>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include "compiler/diag/diagnostics.h"
-#include "tests/compiler/run_sccompile.h"
+#include "tests/support/run_program.h"
 
 namespace twincraft {
 namespace {
 
 namespace fs = std::filesystem;
 
-fs::path folder() { return fs::path(TWINCRAFT_ROOT) / "tests/malformed"; }
+/// A file of the corpus by its name, without the ending.
+struct Fault {
+  std::string name;
+  fs::path file(const char* ending) const { return folder() / (name + ending); }
+  static fs::path folder() { return fs::path(TWINCRAFT_ROOT) / "tests/malformed"; }
+  friend void PrintTo(const Fault& fault, std::ostream* out) { *out << fault.name; }
+};
 
-std::vector<fs::path> cases() {
-  std::vector<fs::path> found;
-  for (const auto& entry : fs::directory_iterator(folder())) {
-    if (entry.path().extension() == ".yaml") found.push_back(entry.path());
-  }
-  std::sort(found.begin(), found.end());
+/// The names of all files with an ending, sorted.
+std::vector<Fault> faults_with(const std::string& ending) {
+  std::vector<Fault> found;
+  for (const auto& entry : fs::directory_iterator(Fault::folder()))
+    if (entry.path().extension() == ending) found.push_back({entry.path().stem().string()});
+  std::ranges::sort(found, {}, &Fault::name);
   return found;
 }
 
-std::string read(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::stringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
-
-std::string further_arguments(fs::path spec) {
-  std::ifstream in(spec.replace_extension(".args"));
-  std::string arguments;
-  for (std::string line; std::getline(in, line);) arguments += " '" + line + "'";
-  return arguments;
-}
-
 /// A case that ends in a warning compiles, so its result has to go somewhere.
-std::string said_about(const fs::path& spec) {
-  const test::Outcome run =
-      test::run_sccompile("'" + spec.filename().string() + "' --emit bsm -o -" +
-                              further_arguments(spec) + " 2>&1 >/dev/null",
-                          folder().string());
-  return run.output + "exit " + std::to_string(run.exit_code) + "\n";
+std::string said_about(const Fault& fault) {
+  std::vector<std::string> arguments{fault.name + ".yaml", "--emit", "bsm", "-o", "-"};
+  std::istringstream further(test::read_file(fault.file(".args")));
+  for (std::string line; std::getline(further, line);) arguments.push_back(line);
+  const test::ProgramResult run =
+      test::run_program(SCCOMPILE, arguments, {.folder = Fault::folder()});
+  return run.err + "exit " + std::to_string(run.exit_code) + "\n";
 }
 
-TEST(Malformed, EveryFileIsAnsweredWithItsExpectedText) {
-  const bool update = std::getenv("SC_UPDATE_EXPECTED") != nullptr;
-  ASSERT_GE(cases().size(), 60u);
-  for (const fs::path& spec : cases()) {
-    const fs::path expected = fs::path(spec).replace_extension(".expected");
-    const std::string said = said_about(spec);
-    if (update) std::ofstream(expected, std::ios::binary) << said;
-    EXPECT_EQ(read(expected), said)
-        << spec.filename() << ": SC_UPDATE_EXPECTED=1 rewrites the expected text";
-  }
+class Malformed : public testing::TestWithParam<Fault> {};
+
+TEST_P(Malformed, IsAnsweredWithItsExpectedText) {
+  const fs::path expected = GetParam().file(".expected");
+  const std::string said = said_about(GetParam());
+  if (std::getenv("SC_UPDATE_EXPECTED") != nullptr)
+    std::ofstream(expected, std::ios::binary) << said;
+  EXPECT_EQ(test::read_file(expected), said) << "SC_UPDATE_EXPECTED=1 rewrites the expected text";
 }
 
-TEST(Malformed, NothingIsLeftOver) {
-  for (const auto& entry : fs::directory_iterator(folder())) {
-    const std::string extension = entry.path().extension().string();
-    if (extension != ".expected" && extension != ".args") continue;
-    EXPECT_TRUE(fs::exists(fs::path(entry.path()).replace_extension(".yaml"))) << entry.path();
-  }
+INSTANTIATE_TEST_SUITE_P(Corpus, Malformed, testing::ValuesIn(faults_with(".yaml")),
+                         [](const auto& instance) { return instance.param.name; });
+
+TEST(MalformedCorpus, HasNothingLeftOver) {
+  for (const char* ending : {".expected", ".args"})
+    for (const Fault& fault : faults_with(ending))
+      EXPECT_TRUE(fs::exists(fault.file(".yaml"))) << fault.file(ending);
 }
 
 /// Codes that no file of the corpus can produce, and why.
@@ -83,9 +76,9 @@ const std::map<Code, std::string>& unreachable() {
   return reasons;
 }
 
-TEST(Malformed, EveryCodeIsProducedBySomeFile) {
+TEST(MalformedCorpus, HasAFileForEveryCode) {
   std::string all;
-  for (const fs::path& spec : cases()) all += read(fs::path(spec).replace_extension(".expected"));
+  for (const Fault& fault : faults_with(".yaml")) all += test::read_file(fault.file(".expected"));
   for (const Code code : all_codes()) {
     const std::string name(code_name(code));
     const bool produced = all.find("[" + name + "]") != std::string::npos;
