@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <mutex>
 #include <utility>
 
 #include "compiler/analysis/verify.h"
@@ -32,24 +31,30 @@ struct Origin {
   std::string sha256;  // of all files it is made of
 };
 
+/// A spec as it is on disk and on the command line, before it means anything.
+struct Tree {
+  Node root;
+  Origin origin;
+  std::vector<Override> changes;  // of the command line, in `root` already
+};
+
 /// Text to syntax tree, with what it extends and with the command line's changes in it.
-/// @param origin, changes  receive what the tree is made of
-std::optional<Node> load(const Source& source, const CompileRequest& request, Sources& sources,
-                         Origin& origin, std::vector<Override>& changes, Diagnostics& diagnostics) {
+std::optional<Tree> load(const Source& source, const CompileRequest& request, Sources& sources,
+                         Diagnostics& diagnostics) {
   std::optional<Node> root = parse(source, diagnostics);
   if (!root || diagnostics.has_errors()) return std::nullopt;
   const std::optional<std::string> text_of_all =
       resolve_extends(*root, source, request.file, sources, diagnostics);
   if (!text_of_all || diagnostics.has_errors()) return std::nullopt;
-  origin = {source.name(), sha256(*text_of_all)};
+  Tree tree{std::move(*root), {source.name(), sha256(*text_of_all)}, {}};
   for (const std::string& text : request.overrides) {
     std::optional<Override> change = parse_override(text, sources, diagnostics);
     if (!change) continue;
-    apply(*change, *root, diagnostics);
-    changes.push_back(std::move(*change));
+    apply(*change, tree.root, diagnostics);
+    tree.changes.push_back(std::move(*change));
   }
   if (diagnostics.has_errors()) return std::nullopt;
-  return root;
+  return tree;
 }
 
 /// Of the command line: those in a study are read later.
@@ -144,20 +149,12 @@ Bundle emit(Model model, const Spec& spec, const Origin& origin,
   return bundle;
 }
 
-/// A spec and the model it became.
-struct Compiled {
-  Spec spec;  // points into the syntax tree
-  Model model;
-};
-
-/// Syntax tree to model, short of the proof and the printing.
-std::optional<Compiled> compile_tree(const Node& root, Diagnostics& diagnostics) {
-  std::optional<Spec> spec = read(root, diagnostics);
-  if (!spec) return std::nullopt;
-  std::optional<Model> model = lower(*spec, diagnostics);
+/// Spec to model, short of the proof and the printing.
+std::optional<Model> lower_finite(const Spec& spec, Diagnostics& diagnostics) {
+  std::optional<Model> model = lower(spec, diagnostics);
   if (!model || diagnostics.has_errors()) return std::nullopt;
-  if (!check_finite(*model, root.span, diagnostics)) return std::nullopt;
-  return Compiled{std::move(*spec), std::move(*model)};
+  if (!check_finite(*model, spec.span(), diagnostics)) return std::nullopt;
+  return model;
 }
 
 void remove_key(Node& map, std::string_view key) {
@@ -168,91 +165,28 @@ void remove_key(Node& map, std::string_view key) {
   map.keys.erase(found);
 }
 
-/// A tree with some changes, as a bundle of its own.
-/// @param changes  applied one after the other
-/// @param before   made the tree what it is; the bundle names them first
-std::optional<Bundle> compile_changed(Node root, const std::vector<Override>& before,
-                                      std::vector<Override> changes, const Origin& origin,
-                                      Diagnostics& diagnostics) {
-  for (const Override& change : changes) apply(change, root, diagnostics);
-  if (diagnostics.has_errors()) return std::nullopt;
-  std::optional<Compiled> compiled = compile_tree(root, diagnostics);
-  if (!compiled) return std::nullopt;
-  require_one_machine(compiled->model);
-  changes.insert(changes.begin(), before.begin(), before.end());
-  return emit(std::move(compiled->model), compiled->spec, origin, changes);
+/// The tolerances of a spec are for its own step, not for all those that are tried out.
+void remove_tolerances(Node& root) {
+  remove_key(root, "agreement");
+  if (Node* stored = root.find("stored")) remove_key(*stored, "tolerance");
 }
 
-class VariantsOfSpec : public Variants {
- public:
-  VariantsOfSpec(Node root, std::vector<Override> command_line, Origin origin, Sources& sources)
-      : base_(std::move(root)),
-        command_line_(std::move(command_line)),
-        origin_(std::move(origin)),
-        sources_(sources) {
-    remove_key(base_, "study");
-  }
+/// @param root  receives the changes; the spec points into it
+std::optional<Spec> read_changed(Node& root, const std::vector<Override>& changes,
+                                 Diagnostics& diagnostics) {
+  for (const Override& change : changes) apply(change, root, diagnostics);
+  if (diagnostics.has_errors()) return std::nullopt;
+  return read(root, diagnostics);
+}
 
-  std::optional<Bundle> compile(const std::vector<std::string>& overrides,
-                                Diagnostics& diagnostics) const override {
-    const std::lock_guard lock(one_at_a_time_);  // neither Sources nor UDUNITS is for threads
-    std::vector<Override> changes;
-    for (const std::string& text : overrides)
-      if (std::optional<Override> change = parse_override(text, sources_, diagnostics))
-        changes.push_back(std::move(*change));
-    if (diagnostics.has_errors()) return std::nullopt;
-    return compile_changed(base_, command_line_, std::move(changes), origin_, diagnostics);
-  }
-
- private:
-  Node base_;
-  std::vector<Override> command_line_;
-  Origin origin_;
-  Sources& sources_;
-  mutable std::mutex one_at_a_time_;
-};
-
-class StudyOfSpec : public Study {
- public:
-  StudyOfSpec(Node root, StudyMembers members, std::vector<Override> command_line, Origin origin)
-      : base_(std::move(root)),
-        members_(std::move(members)),
-        command_line_(std::move(command_line)),
-        origin_(std::move(origin)) {
-    remove_key(base_, "study");
-    // The tolerances of a spec are for its own step, not for all those that are tried out.
-    if (members_.plan.is_work_precision) remove_tolerances();
-  }
-
-  const StudyPlan& plan() const override { return members_.plan; }
-  const Node& base() const { return base_; }
-  std::vector<Override> changes(std::size_t index) const { return members_.overrides(index); }
-
-  std::optional<Bundle> compile(std::size_t index, Diagnostics& diagnostics) const override {
-    const std::lock_guard lock(one_at_a_time_);  // UDUNITS is no library for threads
-    return compile_changed(base_, command_line_, members_.overrides(index), origin_, diagnostics);
-  }
-
-  /// Whatever is wrong with one member, short of the proof and the printing.
-  void check(std::size_t index, Diagnostics& diagnostics) const {
-    Node root = base_;
-    for (const Override& change : members_.overrides(index)) apply(change, root, diagnostics);
-    if (!diagnostics.has_errors()) compile_tree(root, diagnostics);
-  }
-
- private:
-  void remove_tolerances() {
-    remove_key(base_, "agreement");
-    for (std::size_t i = 0; i < base_.keys.size(); ++i)
-      if (base_.keys[i].name == "stored") remove_key(base_.items[i], "tolerance");
-  }
-
-  Node base_;
-  StudyMembers members_;
-  std::vector<Override> command_line_;
-  Origin origin_;
-  mutable std::mutex one_at_a_time_;
-};
+/// Spec to bundle. @param changes  that made the spec what it is
+std::optional<Bundle> bundle_of(const Spec& spec, const Origin& origin,
+                                const std::vector<Override>& changes, Diagnostics& diagnostics) {
+  std::optional<Model> model = lower_finite(spec, diagnostics);
+  if (!model) return std::nullopt;
+  require_one_machine(*model);
+  return emit(std::move(*model), spec, origin, changes);
+}
 
 constexpr std::size_t kEnoughFaults = 50;
 
@@ -278,6 +212,8 @@ Diagnostic in_member(Diagnostic fault, std::size_t index, const std::vector<Over
   return fault;
 }
 
+// So many members of a study are checked, fewer of a large spec.
+constexpr std::size_t kCheckedMembers = 10'000;
 // Checking takes about a microsecond for every three of these units: some seconds in all.
 constexpr std::size_t kCheckedWork = 10'000'000;
 
@@ -287,58 +223,125 @@ std::size_t count_values(const Node& node) {
   return count;
 }
 
-/// What is wrong with the members beyond what is wrong with the spec itself, each fault once.
-void check_members(const StudyOfSpec& study, std::size_t coordinates, Span span,
-                   const CompileRequest& request, Diagnostics& diagnostics) {
-  const std::size_t members = study.plan().members;
-  const std::size_t work = count_values(study.base()) + 10 * coordinates;
-  const std::size_t checked =
-      std::min({members, kCheckedMembers, std::max<std::size_t>(1, kCheckedWork / work)});
-  for (std::size_t i = 0; i < checked; ++i) {
-    if (request.progress) request.progress(i, checked);
-    Diagnostics of_member;
-    study.check(i, of_member);
-    for (const Diagnostic& fault : of_member.all()) {
-      // What is worth a note in one spec is not in hundreds of members.
-      if (fault.severity == Severity::kNote || is_known(fault, diagnostics)) continue;
-      diagnostics.take(in_member(fault, i, study.changes(i)));
-    }
-    if (diagnostics.error_count() >= kEnoughFaults) return;
+/// @param base  that the members are made of
+std::size_t members_to_check(const Node& base, const Spec& spec) {
+  Diagnostics known;  // compiling the spec itself has told
+  const std::optional<Model> model = lower(spec, known);
+  const std::size_t coordinates = model ? model->coordinates.size() : 0;
+  const std::size_t work = count_values(base) + 10 * coordinates;
+  return std::min(kCheckedMembers, std::max<std::size_t>(1, kCheckedWork / work));
+}
+
+/// Faults of member `index` that are not known yet.
+void take_new_faults(const Diagnostics& of_member, std::size_t index,
+                     const std::vector<Override>& changes, Diagnostics& diagnostics) {
+  for (const Diagnostic& fault : of_member.all()) {
+    // What is worth a note in one spec is not in hundreds of members.
+    if (fault.severity == Severity::kNote || is_known(fault, diagnostics)) continue;
+    diagnostics.take(in_member(fault, index, changes));
   }
-  if (members > checked)
-    diagnostics.note(
-        Code::kStudyNotChecked, span,
-        fmt::format("the first {} of the study's {} members were checked", checked, members));
 }
 
 }  // namespace
 
-CompileResult compile(const CompileRequest& request, Sources& sources, Diagnostics& diagnostics) {
+struct LoadedSpec::Parts {
+  std::shared_ptr<const Sources> texts;
+  Tree tree;
+  Spec spec;   // points into the tree
+  Node alone;  // the tree without its study: what members and variants start from
+  std::optional<StudyMembers> study;
+
+  /// What a member's changes are made to.
+  Node base_of_members() const {
+    Node root = alone;
+    if (study->plan.is_work_precision) remove_tolerances(root);
+    return root;
+  }
+
+  /// `root` with some changes, after those of the command line.
+  std::optional<Bundle> compile_changed(Node root, const std::vector<Override>& changes,
+                                        Diagnostics& diagnostics) const {
+    const std::optional<Spec> changed = read_changed(root, changes, diagnostics);
+    if (!changed) return std::nullopt;
+    std::vector<Override> all = tree.changes;
+    all.insert(all.end(), changes.begin(), changes.end());
+    return bundle_of(*changed, tree.origin, all, diagnostics);
+  }
+};
+
+LoadResult load_spec(const CompileRequest& request, Diagnostics& diagnostics) {
   FileText file = request.text ? FileText{*request.text, {}} : read_file(request.file);
   if (!file.error.empty()) return {.io_error = file.error};
+  const auto texts = std::make_shared<Sources>();
+  diagnostics.keep(texts);
   const std::string name = request.file == "-" ? "<stdin>" : request.file;
-  const Source& source = sources.add(name, std::move(file.text));
+  std::optional<Tree> tree =
+      load(texts->add(name, std::move(file.text)), request, *texts, diagnostics);
+  if (!tree) return {.bad_override = has_bad_override(diagnostics)};
+  const auto parts = std::make_shared<LoadedSpec::Parts>();
+  parts->texts = texts;
+  parts->tree = std::move(*tree);
+  std::optional<Spec> spec = read(parts->tree.root, diagnostics);
+  if (!spec) return {};
+  parts->spec = std::move(*spec);
+  parts->alone = parts->tree.root;
+  remove_key(parts->alone, "study");
+  if (parts->spec.study) parts->study = members_of(*parts->spec.study, diagnostics);
+  return {.spec = LoadedSpec(parts)};
+}
 
-  Origin origin;
+std::optional<Bundle> LoadedSpec::compile(Diagnostics& diagnostics) const {
+  diagnostics.keep(parts_->texts);
+  return bundle_of(parts_->spec, parts_->tree.origin, parts_->tree.changes, diagnostics);
+}
+
+const StudyPlan* LoadedSpec::study() const {
+  return parts_->study ? &parts_->study->plan : nullptr;
+}
+
+std::optional<Bundle> LoadedSpec::member(std::size_t index, Diagnostics& diagnostics) const {
+  diagnostics.keep(parts_->texts);
+  return parts_->compile_changed(parts_->base_of_members(), parts_->study->overrides(index),
+                                 diagnostics);
+}
+
+std::optional<Bundle> LoadedSpec::variant(const std::vector<std::string>& overrides,
+                                          Diagnostics& diagnostics) const {
+  const auto texts = std::make_shared<Sources>();
+  diagnostics.keep(parts_->texts);
+  diagnostics.keep(texts);
   std::vector<Override> changes;
-  const std::optional<Node> root = load(source, request, sources, origin, changes, diagnostics);
-  if (!root) return {.bad_override = has_bad_override(diagnostics)};
-  std::optional<Compiled> compiled = compile_tree(*root, diagnostics);
-  if (!compiled) return {};
-  CompileResult result;
-  if (const std::optional<StudySpec>& spec = compiled->spec.study) {
-    auto study = std::make_unique<StudyOfSpec>(*root, members_of(*spec, diagnostics).value(),
-                                               changes, origin);
-    check_members(*study, compiled->model.coordinates.size(), spec->span(), request, diagnostics);
-    if (diagnostics.has_errors()) return {};
-    result.study = std::move(study);
+  for (const std::string& text : overrides)
+    if (std::optional<Override> change = parse_override(text, *texts, diagnostics))
+      changes.push_back(std::move(*change));
+  if (diagnostics.has_errors()) return std::nullopt;
+  return parts_->compile_changed(parts_->alone, changes, diagnostics);
+}
+
+void LoadedSpec::check_members(Diagnostics& diagnostics, const MemberProgress& progress) const {
+  if (!parts_->study) return;
+  diagnostics.keep(parts_->texts);
+  const std::size_t members = parts_->study->plan.members;
+  const std::size_t checked =
+      std::min(members, members_to_check(parts_->base_of_members(), parts_->spec));
+  for (std::size_t i = 0; i < checked; ++i) {
+    if (progress) progress(i, checked);
+    const std::vector<Override> changes = parts_->study->overrides(i);
+    Diagnostics of_member;
+    Node root = parts_->base_of_members();
+    if (const std::optional<Spec> spec = read_changed(root, changes, of_member))
+      lower_finite(*spec, of_member);
+    take_new_faults(of_member, i, changes, diagnostics);
+    if (diagnostics.error_count() >= kEnoughFaults) return;
   }
-  require_one_machine(compiled->model);
-  result.variants = std::make_unique<VariantsOfSpec>(*root, changes, origin, sources);
-  result.step = compiled->spec.simulation.span_of("step");
-  result.record_span = compiled->spec.simulation.span_of("record");
-  result.bundle = emit(std::move(compiled->model), compiled->spec, origin, changes);
-  return result;
+  if (members > checked)
+    diagnostics.note(
+        Code::kStudyNotChecked, parts_->spec.study->span(),
+        fmt::format("the first {} of the study's {} members were checked", checked, members));
+}
+
+Span LoadedSpec::simulation_span(std::string_view key) const {
+  return parts_->spec.simulation.span_of(key);
 }
 
 std::string json_schema() {

@@ -7,6 +7,8 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "compiler/diag/diagnostics.h"
@@ -19,57 +21,60 @@ struct CompileRequest {
   std::string file;                      // as given; `-` is standard input
   std::vector<std::string> overrides;    // `PATH=VALUE`
   std::optional<std::string> text = {};  // of the spec, when it is no file; `file` is its name then
-  // Called before each member of a study that is checked: how many are done, and of how many.
-  std::function<void(std::size_t done, std::size_t planned)> progress = {};
 };
 
-/// The members of a study, each compiled when it is asked for; none is kept. Lives no longer than
-/// the Sources it was read from.
-class Study {
+/// Called before each member of a study that is checked: how many are done, and of how many.
+using MemberProgress = std::function<void(std::size_t done, std::size_t planned)>;
+
+/// A spec that was read without an error, with all that it is made of: its texts, its syntax tree
+/// and the command line's changes. Copies share it. Any number of threads may compile from one at
+/// once, each with diagnostics of its own; nothing compiled is kept.
+///
+/// What is compiled is nothing where the spec, as changed, has errors. All faults of a stage are
+/// reported; a later stage runs only after an earlier one without errors.
+class LoadedSpec {
  public:
-  virtual ~Study() = default;
-  virtual const StudyPlan& plan() const = 0;
+  /// The spec itself. @throws InternalError when the two halves of the model are not one machine;
+  /// so do the others
+  std::optional<Bundle> compile(Diagnostics& diagnostics) const;
 
-  /// Nothing when the member's spec has errors. Any number of threads may call it at once, each
-  /// with diagnostics of its own. @throws InternalError as compile() does
-  virtual std::optional<Bundle> compile(std::size_t index, Diagnostics& diagnostics) const = 0;
-};
+  /// The study's members; nothing when the spec has none.
+  const StudyPlan* study() const;
+  /// @pre index < study()->members
+  std::optional<Bundle> member(std::size_t index, Diagnostics& diagnostics) const;
+  /// Report what is wrong with the members beyond what is wrong with the spec itself, short of
+  /// compiling them to the end. @pre compile() gave a bundle
+  void check_members(Diagnostics& diagnostics, const MemberProgress& progress = {}) const;
 
-/// The spec itself with further changes, without its study; compiled when asked for, none kept.
-/// Lives no longer than the Sources it was read from.
-class Variants {
- public:
-  virtual ~Variants() = default;
-
+  /// The spec with further changes, without its study.
   /// @param overrides  `PATH=VALUE`, after those of the command line
-  /// Nothing when the changed spec has errors. Any number of threads may call it at once, each with
-  /// diagnostics of its own. @throws InternalError as compile() does
-  virtual std::optional<Bundle> compile(const std::vector<std::string>& overrides,
-                                        Diagnostics& diagnostics) const = 0;
+  std::optional<Bundle> variant(const std::vector<std::string>& overrides,
+                                Diagnostics& diagnostics) const;
+
+  /// Where `simulation` has `key`, or what stands for it.
+  Span simulation_span(std::string_view key) const;
+
+ private:
+  struct Parts;
+  friend struct LoadResult load_spec(const CompileRequest& request, Diagnostics& diagnostics);
+  explicit LoadedSpec(std::shared_ptr<const Parts> parts) : parts_(std::move(parts)) {}
+
+  std::shared_ptr<const Parts> parts_;
 };
 
-/// So many members of a study are checked by compile(), fewer of a large spec; a larger study gets
-/// a note that says so.
-inline constexpr std::size_t kCheckedMembers = 10'000;
-
-struct CompileResult {
-  std::optional<Bundle> bundle = {};        // of the spec itself; nothing when there were errors
-  std::string io_error = {};                // the file could not be read: exit code 3
-  bool bad_override = false;                // an override is no PATH=VALUE: exit code 2
-  std::unique_ptr<const Study> study = {};  // when the spec has one
-  std::unique_ptr<const Variants> variants = {};  // with the bundle
-  Span step = {};                                 // where the spec gives the step, with the bundle
-  Span record_span = {};  // where `simulation.record` is written, or what stands for it
+struct LoadResult {
+  std::optional<LoadedSpec> spec = {};  // nothing when there were errors
+  std::string io_error = {};            // the file could not be read: exit code 3
+  bool bad_override = false;            // an override is no PATH=VALUE: exit code 2
 };
+
+/// Text to a spec in which every default is filled in and every reference holds.
+LoadResult load_spec(const CompileRequest& request, Diagnostics& diagnostics);
 
 /// The compiler contradicts itself: a bug of ours, with a text that asks to report it.
 struct InternalError : std::logic_error {
   using std::logic_error::logic_error;
 };
-
-/// All faults of a stage are reported; a later stage runs only after an earlier one without errors.
-/// @throws InternalError when the two halves of the model are not one machine
-CompileResult compile(const CompileRequest& request, Sources& sources, Diagnostics& diagnostics);
 
 /// The JSON Schema of the language (draft-07), as checked in under schemas/.
 std::string json_schema();

@@ -101,6 +101,8 @@ Diagnostic& Diagnostics::note(Code code, Span span, std::string message) {
   return add({Severity::kNote, code, span, std::move(message), {}, {}});
 }
 
+void Diagnostics::keep(std::shared_ptr<const Sources> texts) { texts_.insert(std::move(texts)); }
+
 void Diagnostics::silence(const std::vector<Code>& codes) {
   std::erase_if(all_, [&codes](const Diagnostic& fault) {
     return fault.severity != Severity::kError && std::ranges::count(codes, fault.code) > 0;

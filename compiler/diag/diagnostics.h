@@ -4,6 +4,8 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -72,6 +74,9 @@ class Diagnostics {
   /// One that was made elsewhere.
   void take(Diagnostic diagnostic);
 
+  /// Spans of these diagnostics may point into `texts`, which live as long as they do.
+  void keep(std::shared_ptr<const Sources> texts);
+
   /// What `-Wno-CODE` does: warnings and notes of these codes are forgotten. Errors stay.
   void silence(const std::vector<Code>& codes);
   /// What `-Werror` does: every warning becomes an error.
@@ -91,6 +96,7 @@ class Diagnostics {
   std::vector<Diagnostic> all_;
   std::size_t dropped_ = 0;
   Diagnostic last_dropped_;
+  std::set<std::shared_ptr<const Sources>> texts_;
 };
 
 /// The entry of `candidates` nearest to `word` by edit distance, or empty when none is near enough

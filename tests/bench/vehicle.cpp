@@ -6,13 +6,14 @@
 namespace twincraft::bench {
 
 Bundle compiled(const std::string& spec, const std::vector<std::string>& settings) {
-  Sources sources;
   Diagnostics diagnostics;
-  CompileResult result = compile({spec, settings}, sources, diagnostics);
-  if (!result.io_error.empty()) throw BadSpec(result.io_error);
-  if (!result.bundle) throw BadSpec(to_text(diagnostics, {}));
-  result.bundle->model.simulation.method = Method::kRk4;
-  return std::move(*result.bundle);
+  const LoadResult loaded = load_spec({spec, settings}, diagnostics);
+  if (!loaded.io_error.empty()) throw BadSpec(loaded.io_error);
+  std::optional<Bundle> bundle;
+  if (loaded.spec) bundle = loaded.spec->compile(diagnostics);
+  if (!bundle) throw BadSpec(to_text(diagnostics, {}));
+  bundle->model.simulation.method = Method::kRk4;
+  return *std::move(bundle);
 }
 
 void set_steps(Model& model, long steps) {

@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,19 +15,29 @@
 
 namespace twincraft {
 
+struct Compiled {
+  LoadedSpec spec;
+  Bundle bundle;
+};
+
 class CompilesText : public testing::Test {
  protected:
-  CompileResult compile_text(const std::string& text, std::vector<std::string> overrides = {}) {
+  /// Nothing when the spec or a member of its study has errors.
+  std::optional<Compiled> compile_text(const std::string& text,
+                                       std::vector<std::string> overrides = {}) {
     // Many tests do this at once, each in a process of its own.
     const std::filesystem::path path =
         std::filesystem::path(testing::TempDir()) / ("text_" + std::to_string(getpid()) + ".yaml");
     std::ofstream(path) << text;
-    CompileResult result = compile({path.string(), std::move(overrides)}, sources_, diagnostics_);
+    LoadResult loaded = load_spec({path.string(), std::move(overrides)}, diagnostics_);
     std::filesystem::remove(path);
-    return result;
+    if (!loaded.spec) return std::nullopt;
+    std::optional<Bundle> bundle = loaded.spec->compile(diagnostics_);
+    if (bundle) loaded.spec->check_members(diagnostics_);
+    if (diagnostics_.has_errors()) return std::nullopt;
+    return Compiled{*std::move(loaded.spec), *std::move(bundle)};
   }
 
-  Sources sources_;
   Diagnostics diagnostics_;
 };
 

@@ -29,25 +29,25 @@ constexpr const char* kBrick =
     "simulation: {integrator: rk4, step: 0.1 s, duration: 1 s, record: 0.5 s}\n";
 
 TEST_F(Pipeline, CompilesTheSmallestSpecWithoutAWord) {
-  const CompileResult result = compile_text(kBrick);
-  ASSERT_TRUE(result.bundle);
+  const std::optional<Compiled> result = compile_text(kBrick);
+  ASSERT_TRUE(result);
   EXPECT_THAT(diagnostics_.all(), SizeIs(0));
-  EXPECT_EQ(result.bundle->model.name, "brick");
-  EXPECT_THAT(result.bundle->mjcf, HasSubstr("brick"));
-  EXPECT_EQ(result.bundle->spec_sha256, sha256(kBrick));
-  EXPECT_EQ(nlohmann::json::parse(result.bundle->resolved_json)["hub"]["mass"], 600.0);
+  EXPECT_EQ(result->bundle.model.name, "brick");
+  EXPECT_THAT(result->bundle.mjcf, HasSubstr("brick"));
+  EXPECT_EQ(result->bundle.spec_sha256, sha256(kBrick));
+  EXPECT_EQ(nlohmann::json::parse(result->bundle.resolved_json)["hub"]["mass"], 600.0);
   const std::map<std::string, std::string> hashes = {
-      {"mjcf", sha256(result.bundle->mjcf)},
-      {"bsm", sha256(result.bundle->assembly_json)},
-      {"resolved", sha256(result.bundle->resolved_yaml)}};
-  EXPECT_EQ(result.bundle->emitted_sha256, hashes);
+      {"mjcf", sha256(result->bundle.mjcf)},
+      {"bsm", sha256(result->bundle.assembly_json)},
+      {"resolved", sha256(result->bundle.resolved_yaml)}};
+  EXPECT_EQ(result->bundle.emitted_sha256, hashes);
 }
 
 TEST_F(Pipeline, StopsAfterTheStageThatFoundFaults) {
   // The unknown key belongs to reading; the impossible inertia would be found by checking.
-  const CompileResult result =
+  const std::optional<Compiled> result =
       compile_text(std::string(kBrick) + "wheel: []\n", {"hub.inertia=[1, 1, 5]"});
-  EXPECT_FALSE(result.bundle);
+  EXPECT_FALSE(result);
   EXPECT_EQ(codes(), (std::vector<Code>{Code::kUnknownKey}));
 }
 
@@ -57,25 +57,25 @@ TEST_F(Pipeline, ReportsEveryFaultOfAStage) {
 }
 
 TEST_F(Pipeline, AppliesOverridesBeforeReading) {
-  const CompileResult result = compile_text(kBrick, {"hub.mass=1 t"});
-  ASSERT_TRUE(result.bundle);
-  EXPECT_EQ(result.bundle->model.assembly.links[0].elements[0].mass, 1000.0);
-  EXPECT_EQ(result.bundle->spec_sha256, sha256(kBrick));  // of the file as it is on disk
+  const std::optional<Compiled> result = compile_text(kBrick, {"hub.mass=1 t"});
+  ASSERT_TRUE(result);
+  EXPECT_EQ(result->bundle.model.assembly.links[0].elements[0].mass, 1000.0);
+  EXPECT_EQ(result->bundle.spec_sha256, sha256(kBrick));  // of the file as it is on disk
 }
 
 TEST_F(Pipeline, ReportsABadOverrideAsAFault) {
-  EXPECT_FALSE(compile_text(kBrick, {"hub.mass"}).bundle);
+  EXPECT_FALSE(compile_text(kBrick, {"hub.mass"}));
   EXPECT_THAT(codes(), Contains(Code::kOverrideForm));
 }
 
 TEST_F(Pipeline, CompilesVariantsOnTopOfTheCommandLineAndWithoutTheStudy) {
-  const CompileResult result =
+  const std::optional<Compiled> result =
       compile_text(std::string(kBrick) + "study: {sweep: [{set: hub.mass, values: [1, 2]}]}\n",
                    {"hub.mass=700 kg"});
-  ASSERT_TRUE(result.variants);
+  ASSERT_TRUE(result);
   Diagnostics diagnostics;
   const auto resolved = [&](const std::vector<std::string>& overrides) {
-    const std::optional<Bundle> variant = result.variants->compile(overrides, diagnostics);
+    const std::optional<Bundle> variant = result->spec.variant(overrides, diagnostics);
     return variant ? nlohmann::json::parse(variant->resolved_json) : nlohmann::json();
   };
   EXPECT_EQ(resolved({})["hub"]["mass"], 700.0);
@@ -90,9 +90,9 @@ TEST_F(Pipeline, CompilesVariantsOnTopOfTheCommandLineAndWithoutTheStudy) {
 }
 
 TEST_F(Pipeline, CannotReadWhatIsNotThere) {
-  const CompileResult result = compile({"/no/such/spec.yaml", {}}, sources_, diagnostics_);
-  EXPECT_FALSE(result.bundle);
-  EXPECT_THAT(result.io_error, HasSubstr("no such file"));
+  const LoadResult loaded = load_spec({"/no/such/spec.yaml", {}}, diagnostics_);
+  EXPECT_FALSE(loaded.spec);
+  EXPECT_THAT(loaded.io_error, HasSubstr("no such file"));
 }
 
 TEST(Sha256, MatchesThePublishedExamples) {  // FIPS 180-2, appendix B
@@ -111,7 +111,7 @@ TEST_F(Pipeline, RefusesADropWithoutExtendsInATextThatIsNoFile) {
   CompileRequest request;
   request.file = "no/such/folder/spec.yaml";
   request.text = "format: spacecraft/1\nname: x\ndrop: [a]\nhub: {mass: 1, inertia: [1, 1, 1]}\n";
-  EXPECT_FALSE(compile(request, sources_, diagnostics_).bundle);
+  EXPECT_FALSE(load_spec(request, diagnostics_).spec);
   EXPECT_TRUE(diagnostics_.has_errors());
 }
 

@@ -5,8 +5,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <set>
+#include <thread>
 
+#include "compiler/diag/print.h"
 #include "compiler/pipeline.h"
 #include "compiler/syntax/load.h"
 #include "tests/compiler/compile_text.h"
@@ -30,17 +33,28 @@ constexpr const char* kPanel =
 
 class StudyOfAFile : public CompilesText {
  protected:
-  Bundle member(const CompileResult& result, std::size_t index) {
+  Bundle member(const std::optional<Compiled>& result, std::size_t index) {
     Diagnostics diagnostics;
-    std::optional<Bundle> bundle = result.study->compile(index, diagnostics);
+    std::optional<Bundle> bundle = result->spec.member(index, diagnostics);
     EXPECT_FALSE(diagnostics.has_errors());
     return std::move(bundle.value());
   }
 
+  /// With a text of its own.
+  Bundle variant(const std::optional<Compiled>& result, std::size_t index) {
+    constexpr std::array kUnits{"kg", "t", "lb", "slug", "dag", "pound"};
+    const std::string change =
+        "hub.mass=" + std::to_string(1000 + index) + " " + kUnits.at(index % kUnits.size());
+    Diagnostics diagnostics;
+    std::optional<Bundle> bundle = result->spec.variant({change}, diagnostics);
+    EXPECT_FALSE(diagnostics.has_errors()) << to_text(diagnostics, {});
+    return std::move(bundle.value());
+  }
+
   /// `a,x` for every member: the texts of what it sets.
-  std::vector<std::string> members(const CompileResult& result) {
+  std::vector<std::string> members(const std::optional<Compiled>& result) {
     std::vector<std::string> all;
-    for (std::size_t i = 0; i < result.study->plan().members; ++i) {
+    for (std::size_t i = 0; i < result->spec.study()->members; ++i) {
       all.emplace_back();
       for (const Setting& setting : member(result, i).settings)
         all.back() += (all.back().empty() ? "" : ",") + setting.text;
@@ -50,12 +64,12 @@ class StudyOfAFile : public CompilesText {
 };
 
 TEST_F(StudyOfAFile, LetsTheLastPathOfAGridVaryFastest) {
-  const CompileResult result =
+  const std::optional<Compiled> result =
       compile_text(std::string(kBrick) +
                    "study:\n  sweep:\n    - {set: simulation.step, values: [0.1, 0.05]}\n"
                    "    - {set: simulation.integrator, values: [euler, rk2, rk4]}\n");
-  ASSERT_TRUE(result.study);
-  EXPECT_THAT(result.study->plan().paths, ElementsAre("simulation.step", "simulation.integrator"));
+  ASSERT_TRUE(result);
+  EXPECT_THAT(result->spec.study()->paths, ElementsAre("simulation.step", "simulation.integrator"));
   EXPECT_THAT(members(result),
               ElementsAre("0.1,euler", "0.1,rk2", "0.1,rk4", "0.05,euler", "0.05,rk2", "0.05,rk4"));
 }
@@ -65,10 +79,10 @@ TEST_F(StudyOfAFile, HoldsMembersAgainstTheFirstValueOfOnePath) {
       "    - {set: simulation.step, values: [0.1, 0.05]}\n"
       "    - {set: hub.mass, values: [1, 2, 3]}\n"
       "    - {set: simulation.integrator, values: [rk2, rk4]}\n";
-  const CompileResult result =
+  const std::optional<Compiled> result =
       compile_text(std::string(kBrick) + "study:\n  compare: hub.mass\n  sweep:\n" + sweep);
-  ASSERT_TRUE(result.study);
-  const StudyPlan& plan = result.study->plan();
+  ASSERT_TRUE(result);
+  const StudyPlan& plan = *result->spec.study();
   ASSERT_EQ(plan.compare, 1u);
   std::vector<std::size_t> baselines;
   for (std::size_t i = 0; i < plan.members; ++i) baselines.push_back(plan.baseline_of(i));
@@ -78,30 +92,30 @@ TEST_F(StudyOfAFile, HoldsMembersAgainstTheFirstValueOfOnePath) {
 }
 
 TEST_F(StudyOfAFile, HoldsAZipAgainstItsFirstMember) {
-  const CompileResult result = compile_text(
+  const std::optional<Compiled> result = compile_text(
       std::string(kBrick) +
       "study:\n  combine: zip\n  compare: hub.mass\n  sweep:\n"
       "    - {set: hub.mass, values: [1, 2]}\n    - {set: simulation.step, values: [0.1, 0.05]}\n");
-  ASSERT_TRUE(result.study);
-  EXPECT_EQ(result.study->plan().baseline_of(1), 0u);
-  EXPECT_EQ(result.study->plan().last_held_against(0), 1u);
+  ASSERT_TRUE(result);
+  EXPECT_EQ(result->spec.study()->baseline_of(1), 0u);
+  EXPECT_EQ(result->spec.study()->last_held_against(0), 1u);
 }
 
 TEST_F(StudyOfAFile, PairsTheValuesOfAZip) {
-  const CompileResult result = compile_text(
+  const std::optional<Compiled> result = compile_text(
       std::string(kBrick) +
       "study:\n  combine: zip\n  sweep:\n    - {set: simulation.step, values: [0.1, 50 ms]}\n"
       "    - {set: simulation.record, values: [1, 0.5]}\n");
-  ASSERT_TRUE(result.study);
+  ASSERT_TRUE(result);
   EXPECT_THAT(members(result), ElementsAre("0.1,1", "50 ms,0.5"));
   EXPECT_EQ(member(result, 1).model.simulation.step, 0.05);
 }
 
 TEST_F(StudyOfAFile, KnowsSweptNumbersInSi) {
-  const CompileResult result =
+  const std::optional<Compiled> result =
       compile_text(std::string(kBrick) + "study: {sweep: [{set: hub.mass, values: [1 t, 2 t]}]}\n",
                    {"initial.velocity=[3, 4, 0]", "simulation.integrator=rk2"});
-  ASSERT_TRUE(result.study);
+  ASSERT_TRUE(result);
   const std::vector<Setting> settings = member(result, 1).settings;
   ASSERT_THAT(settings, SizeIs(3));  // the command line's first
   EXPECT_EQ(settings[0].value, 5.0);
@@ -110,20 +124,20 @@ TEST_F(StudyOfAFile, KnowsSweptNumbersInSi) {
 }
 
 TEST_F(StudyOfAFile, MakesMembersFromTheSpecWithoutItsStudy) {
-  const CompileResult result =
+  const std::optional<Compiled> result =
       compile_text(std::string(kBrick) + "study: {sweep: [{set: hub.mass, values: [1 t]}]}\n");
-  ASSERT_TRUE(result.study);
-  EXPECT_THAT(result.bundle->resolved_json, HasSubstr("\"study\""));
+  ASSERT_TRUE(result);
+  EXPECT_THAT(result->bundle.resolved_json, HasSubstr("\"study\""));
   EXPECT_THAT(member(result, 0).resolved_json, Not(HasSubstr("\"study\"")));
-  EXPECT_EQ(result.bundle->model.assembly.links[0].elements[0].mass, 600.0);
+  EXPECT_EQ(result->bundle.model.assembly.links[0].elements[0].mass, 600.0);
 }
 
 TEST_F(StudyOfAFile, EvaluatesAStepRuleForEveryMember) {
-  const CompileResult result =
+  const std::optional<Compiled> result =
       compile_text(std::string(kBrick) + kPanel +
                        "study: {sweep: [{set: panels.*.segments, values: [1, 2, 4]}]}\n",
                    {"simulation.step={per_period: 200, of: wing, maximum: 0.01}"});
-  ASSERT_TRUE(result.study);
+  ASSERT_TRUE(result);
   const double first = member(result, 0).model.simulation.step;
   const double third = member(result, 2).model.simulation.step;
   EXPECT_EQ(first, 0.01);
@@ -132,23 +146,23 @@ TEST_F(StudyOfAFile, EvaluatesAStepRuleForEveryMember) {
 }
 
 TEST_F(StudyOfAFile, EndsWorkPrecisionWithReferenceAndCheckAndJudgesNothing) {
-  const CompileResult result = compile_text(
+  const std::optional<Compiled> result = compile_text(
       std::string(kBrick) +
       "study:\n  work_precision:\n    configurations:\n"
       "      - {integrator: rk4, set: simulation.step, values: [0.2, 0.1]}\n"
       "      - {integrator: rkf45, step: 0.5, set: simulation.tolerance, values: [1.0e-6]}\n"
       "    reference: {step: 0.25}\n");
-  ASSERT_TRUE(result.study);
+  ASSERT_TRUE(result);
   EXPECT_THAT(members(result), ElementsAre("rk4,0.2", "rk4,0.1", "rkf45,0.5,1.0e-6",
                                            "rkf78,0.25,1e-13", "rkf78,0.25,1e-12"));
-  EXPECT_TRUE(result.bundle->model.agreement.attitude);
+  EXPECT_TRUE(result->bundle.model.agreement.attitude);
   EXPECT_FALSE(member(result, 0).model.agreement.attitude);
 }
 
 TEST_F(StudyOfAFile, PointsAtTheValueThatIsWrong) {
-  const CompileResult result =
+  const std::optional<Compiled> result =
       compile_text(std::string(kBrick) + "study: {sweep: [{set: hub.mass, values: [1 t, -2]}]}\n");
-  EXPECT_FALSE(result.bundle);
+  EXPECT_FALSE(result);
   ASSERT_THAT(diagnostics_.all(), SizeIs(1));
   const Diagnostic& fault = diagnostics_.all()[0];
   EXPECT_EQ(fault.span.line, 6);
@@ -157,9 +171,9 @@ TEST_F(StudyOfAFile, PointsAtTheValueThatIsWrong) {
 }
 
 TEST_F(StudyOfAFile, NotesTheValueThatMakesAnotherOneWrong) {
-  const CompileResult result = compile_text(
+  const std::optional<Compiled> result = compile_text(
       std::string(kBrick) + "study: {sweep: [{set: simulation.duration, values: [1, 50 ms]}]}\n");
-  EXPECT_FALSE(result.bundle);
+  EXPECT_FALSE(result);
   ASSERT_THAT(diagnostics_.all(), SizeIs(1));
   const Diagnostic& fault = diagnostics_.all()[0];
   EXPECT_EQ(fault.code, Code::kStepTooLong);
@@ -167,6 +181,26 @@ TEST_F(StudyOfAFile, NotesTheValueThatMakesAnotherOneWrong) {
   ASSERT_FALSE(fault.notes.empty());
   EXPECT_EQ(fault.notes.back().span.line, 6);
   EXPECT_THAT(fault.notes.back().message, HasSubstr("member 2"));
+}
+
+TEST_F(StudyOfAFile, GivesTheSameMembersOnAnyNumberOfThreads) {
+  const std::optional<Compiled> result =
+      compile_text(std::string(kBrick) + kPanel +
+                   "study:\n  sweep:\n    - {set: panels.*.segments, values: [1, 2, 3, 4]}\n"
+                   "    - {set: panels.*.length, values: [3 m, 9.9 ft, 300 cm, 118 in]}\n"
+                   "    - {set: hub.mass, values: [1 t, 2204.7 lb, 900 kg]}\n");
+  ASSERT_TRUE(result);
+  const std::size_t count = result->spec.study()->members;
+  std::vector<std::string> texts(count);
+  std::vector<std::thread> threads;
+  for (std::size_t first = 0; first < 4; ++first)
+    threads.emplace_back([&, first] {
+      for (std::size_t i = first; i < count; i += 4)
+        texts[i] = member(result, i).assembly_json + variant(result, i).assembly_json;
+    });
+  for (std::thread& thread : threads) thread.join();
+  for (std::size_t i = 0; i < count; ++i)
+    EXPECT_EQ(texts[i], member(result, i).assembly_json + variant(result, i).assembly_json) << i;
 }
 
 TEST_F(StudyOfAFile, ReportsAFaultThatManyMembersShareOnce) {

@@ -6,8 +6,6 @@
 #include <Eigen/Eigenvalues>
 #include <limits>
 
-#include "compiler/diag/print.h"
-#include "compiler/pipeline.h"
 #include "runtime/bsm/engine.h"
 #include "runtime/bsm/plan.h"
 #include "runtime/compare/agreement.h"
@@ -15,17 +13,12 @@
 #include "runtime/compare/random_state.h"
 #include "runtime/mujoco/engine.h"
 #include "runtime/simulate/propagate.h"
+#include "tests/support/compiled.h"
 
 namespace twincraft {
 namespace {
 
-Bundle compiled_file(const std::string& file, const std::vector<std::string>& overrides = {}) {
-  Sources sources;
-  Diagnostics diagnostics;
-  CompileResult result = compile({TWINCRAFT_ROOT "/" + file, overrides}, sources, diagnostics);
-  EXPECT_EQ(diagnostics.error_count(), 0u) << to_text(diagnostics, {});
-  return result.bundle.value();
-}
+using test::compiled_file;
 
 Bundle compiled(const std::string& vehicle, const std::vector<std::string>& overrides = {}) {
   return compiled_file("tests/components/vehicles/" + vehicle + ".yaml", overrides);

@@ -4,29 +4,21 @@
 
 #include <cmath>
 
-#include "compiler/diag/print.h"
 #include "compiler/ir/number.h"
-#include "compiler/pipeline.h"
 #include "runtime/bsm/engine.h"
 #include "runtime/compare/random_state.h"
 #include "runtime/mujoco/engine.h"
 #include "runtime/simulate/propagate.h"
 #include "tests/support/allocation_counter.h"
+#include "tests/support/compiled.h"
 
 namespace twincraft {
 namespace {
 
-Bundle compiled(const std::string& file, const std::vector<std::string>& overrides = {}) {
-  Sources sources;
-  Diagnostics diagnostics;
-  CompileResult result =
-      compile({std::string(TWINCRAFT_ROOT) + "/" + file, overrides}, sources, diagnostics);
-  EXPECT_EQ(diagnostics.error_count(), 0u) << to_text(diagnostics, {});
-  return result.bundle.value();
-}
+using test::compiled_file;
 
 Bundle burn(const std::vector<std::string>& overrides = {}) {
-  return compiled("tests/components/vehicles/burn.yaml", overrides);
+  return compiled_file("tests/components/vehicles/burn.yaml", overrides);
 }
 
 std::vector<std::unique_ptr<Engine>> both_engines(const Bundle& bundle) {
@@ -45,7 +37,7 @@ Eigen::VectorXd derivative(Engine& engine, const RandomState& state) {
 }
 
 TEST(Depletion, GivesTheRocketEquationInBothEngines) {
-  const Bundle bundle = compiled(
+  const Bundle bundle = compiled_file(
       "models/paper/variable_mass.yaml",
       {"slosh=[]", "initial.rate=[0, 0, 0]", "simulation.step=1 s", "simulation.record=900 s"});
   const double exhaust = 234.0 * kStandardGravity;
@@ -141,13 +133,13 @@ TEST(Depletion, ChangesNothingOfTanksThatNobodyDraws) {
 
 /// On a hub so heavy that it feels no bob, under a = F/m: omega = sqrt(a/L).
 TEST(Pendulum, SwingsWithItsOwnFrequencyUnderThrust) {
-  const Bundle bundle =
-      compiled("tests/components/vehicles/pendulum.yaml",
-               {"hub.mass=1.0e9", "hub.inertia=[1.0e9, 1.0e9, 1.0e9]",
-                "hub.center_of_mass=[0, 0, 0]", "initial=null", "slosh.bob.mass=1",
-                "slosh.bob.angles=[1.0e-4, 0]", "slosh.bob.rates=[0, 0]", "slosh.bob.damping=0",
-                "slosh.bob.position=[0, 0, 0]", "thrusters.engine.direction=[0, 0, 1]",
-                "thrusters.engine.position=[0, 0, 0]", "thrusters.engine.thrust=1.0e9 N"});
+  const Bundle bundle = compiled_file(
+      "tests/components/vehicles/pendulum.yaml",
+      {"hub.mass=1.0e9", "hub.inertia=[1.0e9, 1.0e9, 1.0e9]", "hub.center_of_mass=[0, 0, 0]",
+       "initial=null", "slosh.bob.mass=1", "slosh.bob.angles=[1.0e-4, 0]", "slosh.bob.rates=[0, 0]",
+       "slosh.bob.damping=0", "slosh.bob.position=[0, 0, 0]",
+       "thrusters.engine.direction=[0, 0, 1]", "thrusters.engine.position=[0, 0, 0]",
+       "thrusters.engine.thrust=1.0e9 N"});
   const double omega = std::sqrt(1.0 / 0.4);
   for (const auto& engine : both_engines(bundle)) {
     const RandomState state = undisturbed(bundle.model);

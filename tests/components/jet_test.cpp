@@ -6,25 +6,18 @@
 #include <map>
 
 #include "compiler/analysis/configuration.h"
-#include "compiler/diag/print.h"
-#include "compiler/pipeline.h"
 #include "runtime/bsm/engine.h"
 #include "runtime/compare/agreement.h"
 #include "runtime/compare/random_state.h"
 #include "runtime/mujoco/engine.h"
 #include "runtime/simulate/propagate.h"
 #include "tests/support/allocation_counter.h"
+#include "tests/support/compiled.h"
 
 namespace twincraft {
 namespace {
 
-Bundle compiled(const CompileRequest& request) {
-  Sources sources;
-  Diagnostics diagnostics;
-  CompileResult result = compile(request, sources, diagnostics);
-  EXPECT_EQ(diagnostics.error_count(), 0u) << to_text(diagnostics, {});
-  return result.bundle.value();
-}
+using test::compiled;
 
 Bundle written(const std::string& text, const std::vector<std::string>& overrides = {}) {
   return compiled({"<test>", overrides, "format: spacecraft/1\nname: test\n" + text});

@@ -16,17 +16,18 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (text.find("extends") != std::string::npos) return 0;
   // Ten thousand members are ten thousand times the same code.
   if (text.find("sweep") != std::string::npos) return 0;
-  Sources sources;
   Diagnostics diagnostics;
   CompileRequest request;
   request.file = "fuzz.yaml";
   request.text = std::move(text);
-  const CompileResult result = compile(request, sources, diagnostics);
-  fuzz::claim(result.io_error.empty());
-  fuzz::claim(result.bundle.has_value() != diagnostics.has_errors());
+  const LoadResult loaded = load_spec(request, diagnostics);
+  fuzz::claim(loaded.io_error.empty());
+  std::optional<Bundle> bundle;
+  if (loaded.spec) bundle = loaded.spec->compile(diagnostics);
+  fuzz::claim(bundle.has_value() != diagnostics.has_errors());
   to_text(diagnostics, {});
-  if (!result.bundle) return 0;
-  fuzz::claim(!result.bundle->assembly_json.empty() && !result.bundle->resolved_yaml.empty());
-  fuzz::claim(result.bundle->mjcf.empty() != result.bundle->model.mujoco_refusal.empty());
+  if (!bundle) return 0;
+  fuzz::claim(!bundle->assembly_json.empty() && !bundle->resolved_yaml.empty());
+  fuzz::claim(bundle->mjcf.empty() != bundle->model.mujoco_refusal.empty());
   return 0;
 }

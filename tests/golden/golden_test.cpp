@@ -7,13 +7,11 @@
 #include <fstream>
 #include <set>
 #include <sstream>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "compiler/diag/print.h"
-#include "compiler/pipeline.h"
+#include "tests/support/compiled.h"
 
 namespace twincraft {
 namespace {
@@ -43,14 +41,7 @@ std::string read(const fs::path& path) {
   return text.str();
 }
 
-/// @throws when the spec has faults, with the diagnostics
-Bundle compiled(const fs::path& spec) {
-  Sources sources;
-  Diagnostics diagnostics;
-  CompileResult result = compile({spec.string(), {}}, sources, diagnostics);
-  if (!result.bundle) throw std::runtime_error(result.io_error + to_text(diagnostics, {}));
-  return *std::move(result.bundle);
-}
+Bundle compiled(const fs::path& spec) { return test::compiled({spec.string(), {}}); }
 
 /// The first line that differs says more than two whole files.
 std::string first_difference(const std::string& expected, const std::string& actual) {

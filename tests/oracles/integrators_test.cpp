@@ -13,11 +13,10 @@
 #include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
 #include <memory>
 
-#include "compiler/diag/print.h"
-#include "compiler/pipeline.h"
 #include "runtime/bsm/engine.h"
 #include "runtime/mujoco/engine.h"
 #include "runtime/simulate/propagate.h"
+#include "tests/support/compiled.h"
 
 namespace twincraft {
 namespace {
@@ -88,16 +87,10 @@ void PrintTo(const Vehicle& one, std::ostream* out) { *out << one.file; }
 class Integrators : public testing::TestWithParam<Vehicle> {
  protected:
   void SetUp() override {
-    Sources sources;
-    Diagnostics diagnostics;
-    CompileResult result =
-        compile({TWINCRAFT_ROOT "/" + GetParam().file,
-                 {"engines.bsm.attitude=quaternion", "simulation.integrator=rkf78",
-                  "simulation.tolerance=1.0e-13", "simulation.step=1", "references=[]",
-                  "simulation.duration=" + std::to_string(GetParam().duration)}},
-                sources, diagnostics);
-    ASSERT_TRUE(result.bundle) << to_text(diagnostics, {});
-    bundle = std::move(*result.bundle);
+    bundle = test::compiled_file(
+        GetParam().file, {"engines.bsm.attitude=quaternion", "simulation.integrator=rkf78",
+                          "simulation.tolerance=1.0e-13", "simulation.step=1", "references=[]",
+                          "simulation.duration=" + std::to_string(GetParam().duration)});
     engines.push_back(make_bsm_engine(bundle.model));
     engines.push_back(make_mujoco_engine(bundle.model, bundle.mjcf));
   }

@@ -2,10 +2,9 @@
 // vehicle of the component battery and on the shipped models.
 #include <gtest/gtest.h>
 
-#include "compiler/diag/print.h"
-#include "compiler/pipeline.h"
 #include "runtime/bsm/engine.h"
 #include "runtime/mujoco/engine.h"
+#include "tests/support/compiled.h"
 #include "tests/support/simbody_oracle.h"
 
 namespace twincraft {
@@ -23,14 +22,10 @@ Eigen::VectorXd accelerations(const Model& model, Engine& engine, const RandomSt
 class Simbody : public testing::TestWithParam<std::string> {};
 
 TEST_P(Simbody, AgreesWithBothEngines) {
-  Sources sources;
-  Diagnostics diagnostics;
-  const CompileResult result =
-      compile({TWINCRAFT_ROOT "/" + GetParam() + ".yaml", {}}, sources, diagnostics);
-  ASSERT_TRUE(result.bundle) << to_text(diagnostics, {});
-  const Model& model = result.bundle->model;
+  const Bundle bundle = test::compiled_file(GetParam() + ".yaml");
+  const Model& model = bundle.model;
   const auto bsm = make_bsm_engine(model);
-  const auto mujoco = make_mujoco_engine(model, result.bundle->mjcf);
+  const auto mujoco = make_mujoco_engine(model, bundle.mjcf);
   for (const RandomState& state : random_states(model, 20)) {
     const Eigen::VectorXd truth = test::simbody_accelerations(model, model.gravity.bsm, state);
     const Eigen::VectorXd a = accelerations(model, *bsm, state);

@@ -67,15 +67,14 @@ class Examination {
   /// The spec, or the first member of its study.
   static std::optional<Bundle> compile_text(const std::string& text, std::string& faults,
                                             const std::string& file = "vehicle.yaml") {
-    static std::mutex one_at_a_time;  // UDUNITS is no library for threads
-    const std::lock_guard lock(one_at_a_time);
-    Sources sources;
     Diagnostics diagnostics;
-    CompileRequest request{.file = file, .overrides = {}, .text = text};
-    CompileResult result = compile(request, sources, diagnostics);
-    if (result.study) result.bundle = result.study->compile(0, diagnostics);
+    const LoadResult loaded = load_spec({file, {}, text}, diagnostics);
+    std::optional<Bundle> bundle;
+    if (loaded.spec)
+      bundle = loaded.spec->study() != nullptr ? loaded.spec->member(0, diagnostics)
+                                               : loaded.spec->compile(diagnostics);
     faults = to_text(diagnostics, {});
-    return std::move(result.bundle);
+    return bundle;
   }
 
   /// " SC3101": a shrunk spec must be refused for the same reason.

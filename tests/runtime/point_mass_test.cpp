@@ -4,8 +4,6 @@
 
 #include <cmath>
 
-#include "compiler/diag/print.h"
-#include "compiler/pipeline.h"
 #include "runtime/bsm/engine.h"
 #include "runtime/compare/agreement.h"
 #include "runtime/compare/conservation.h"
@@ -14,6 +12,7 @@
 #include "runtime/mujoco/engine.h"
 #include "runtime/reference/reference.h"
 #include "runtime/study/member.h"
+#include "tests/support/compiled.h"
 
 namespace twincraft {
 namespace {
@@ -23,12 +22,7 @@ using testing::Not;
 
 /// Off its centre, pushed along a skew line that changes, in orbit.
 Bundle compiled(const std::vector<std::string>& overrides = {}) {
-  Sources sources;
-  Diagnostics diagnostics;
-  CompileResult result =
-      compile({TWINCRAFT_ROOT "/tests/golden/point_mass.yaml", overrides}, sources, diagnostics);
-  EXPECT_EQ(diagnostics.error_count(), 0u) << to_text(diagnostics, {});
-  return std::move(result.bundle.value());
+  return test::compiled_file("tests/golden/point_mass.yaml", overrides);
 }
 
 Eigen::VectorXd acceleration(const Model& model, Engine& engine, const RandomState& state) {

@@ -50,9 +50,9 @@ MemberSpec without_references(std::optional<Bundle> bundle) {
   return {std::move(bundle), {}};
 }
 
-MemberSpec compile_variant(const Variants& variants, const Overrides& changes) {
+MemberSpec compile_variant(const LoadedSpec& loaded, const Overrides& changes) {
   Diagnostics diagnostics;
-  MemberSpec spec = without_references(variants.compile(changes, diagnostics));
+  MemberSpec spec = without_references(loaded.variant(changes, diagnostics));
   for (const Diagnostic& fault : diagnostics.all())
     if (!spec.bundle && fault.severity == Severity::kError && spec.refusal.empty())
       spec.refusal = fault.message;
@@ -82,7 +82,7 @@ VariantResult result_of(const Subject& subject, const Member& member) {
 }
 
 /// Variants several at a time; of each only its error is kept.
-std::vector<VariantResult> run_variants(const Variants& variants, const Subject& subject,
+std::vector<VariantResult> run_variants(const LoadedSpec& spec, const Subject& subject,
                                         const std::vector<Overrides>& changes,
                                         const RunOptions& options, int jobs) {
   RunOptions quiet = options;
@@ -91,8 +91,7 @@ std::vector<VariantResult> run_variants(const Variants& variants, const Subject&
   OrderedWork<VariantResult> plan;
   plan.count = changes.size();
   plan.work = [&](std::size_t index) {
-    return result_of(subject,
-                     run_one(compile_variant(variants, changes[index]), quiet).member.result);
+    return result_of(subject, run_one(compile_variant(spec, changes[index]), quiet).member.result);
   };
   plan.deliver = [&](VariantResult result) {
     results.push_back(std::move(result));
@@ -153,7 +152,7 @@ int exit_code(const Attribution& attribution) {
   return kExitFailure;
 }
 
-int explain(CompileResult compiled, const CommonOptions& options) {
+int explain(CompiledSpec compiled, const CommonOptions& options) {
   ProgressBar bar(stderr);
   RunOptions run = watched_run(options, bar);
   run.trials = 0;
@@ -171,10 +170,10 @@ int explain(CompileResult compiled, const CommonOptions& options) {
   report.attribution =
       attribute(member.bundle, subject, error_of(subject, member.result),
                 [&](const std::vector<Overrides>& changes) {
-                  return run_variants(*compiled.variants, subject, changes, run, jobs_of(options));
+                  return run_variants(compiled.spec, subject, changes, run, jobs_of(options));
                 });
   bar.clear();
-  const int delivered = deliver(report, compiled.study != nullptr, options);
+  const int delivered = deliver(report, compiled.spec.study() != nullptr, options);
   return delivered != kExitDone ? delivered : exit_code(*report.attribution);
 }
 
@@ -187,14 +186,13 @@ int attribute_command(int argc, char** argv) {
   describe(app, options);
   if (const std::optional<int> code = parse_command_line(app, argc, argv)) return *code;
   if (const std::optional<int> code = settle_flags("scsim attribute", options)) return *code;
-  Sources sources;
-  CompileResult compiled;
-  if (const int code = compile_spec(options, sources, compiled); code != kExitDone) return code;
+  std::optional<CompiledSpec> compiled;
+  if (const int code = compile_spec(options, compiled); code != kExitDone) return code;
   // The run itself and a variant per job, of both engines.
-  const int code_of_memory = check_memory(compiled, 2.0 * (1.0 + jobs_of(options)), options);
+  const int code_of_memory = check_memory(*compiled, 2.0 * (1.0 + jobs_of(options)), options);
   if (code_of_memory != kExitDone) return code_of_memory;
   if (const int code = check_writable(report_files(options)); code != kExitDone) return code;
-  return explain(std::move(compiled), options);
+  return explain(*std::move(compiled), options);
 }
 
 }  // namespace twincraft

@@ -74,6 +74,17 @@ std::string check_processor(const std::string& isa) {
   return fmt::format("this processor has no `{}`; it has {}", isa, has);
 }
 
+void check_members(const LoadedSpec& spec, const CommonOptions& options, Diagnostics& diagnostics) {
+  ProgressBar bar(stderr);
+  MemberProgress progress;
+  if (shows_progress(options))
+    progress = [&bar](std::size_t done, std::size_t planned) {
+      bar.show("check", static_cast<double>(done) / static_cast<double>(planned));
+    };
+  spec.check_members(diagnostics, progress);
+  bar.clear();
+}
+
 }  // namespace
 
 void describe_input(CLI::App& app, CommonOptions& options, std::string_view files) {
@@ -177,34 +188,32 @@ Provenance provenance_of(const CommonOptions& options) {
   return made;
 }
 
-int compile_spec(const CommonOptions& options, Sources& sources, CompileResult& result) {
+int compile_spec(const CommonOptions& options, std::optional<CompiledSpec>& result) {
   Diagnostics diagnostics;
-  ProgressBar bar(stderr);
-  CompileRequest request = options.request;
-  if (shows_progress(options))
-    request.progress = [&bar](std::size_t done, std::size_t planned) {
-      bar.show("check", static_cast<double>(done) / static_cast<double>(planned));
-    };
-  result = compile(request, sources, diagnostics);
-  bar.clear();
-  if (!result.io_error.empty()) {
-    complain(result.io_error);
+  LoadResult loaded = load_spec(options.request, diagnostics);
+  if (!loaded.io_error.empty()) {
+    complain(loaded.io_error);
     return kExitInputOutput;
   }
+  std::optional<Bundle> bundle;
+  if (loaded.spec) bundle = loaded.spec->compile(diagnostics);
+  if (bundle) check_members(*loaded.spec, options, diagnostics);
   judge_warnings(options.warnings, diagnostics);
   if (const int code = print_diagnostics(diagnostics, options); code != kExitDone) return code;
-  if (result.bad_override) return kExitUsage;
-  return result.bundle && !diagnostics.has_errors() ? kExitDone : kExitFindings;
+  if (loaded.bad_override) return kExitUsage;
+  if (!bundle || diagnostics.has_errors()) return kExitFindings;
+  result = CompiledSpec{*std::move(loaded.spec), *std::move(bundle)};
+  return kExitDone;
 }
 
-int check_memory(const CompileResult& compiled, double trajectories, const CommonOptions& options) {
-  const Model& model = compiled.bundle->model;
+int check_memory(const CompiledSpec& compiled, double trajectories, const CommonOptions& options) {
+  const Model& model = compiled.bundle.model;
   const double needed = trajectories * trajectory_bytes(model);
   if (needed <= kMostMemory) return kExitDone;
   Diagnostics diagnostics;
   diagnostics
       .error(
-          Code::kTooManySteps, compiled.record_span,
+          Code::kTooManySteps, compiled.spec.simulation_span("record"),
           fmt::format("{:.3g} samples of {} trajectories, which this analysis keeps, take {}, "
                       "more than {}",
                       samples_of(model), trajectories, size_words(needed), size_words(kMostMemory)))

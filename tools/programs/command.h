@@ -50,12 +50,19 @@ int jobs_of(const CommonOptions& options);
 /// Of a run with these options.
 Provenance provenance_of(const CommonOptions& options);
 
-/// Compile, and say what is wrong. @return an exit code, 0 with `result.bundle`
-int compile_spec(const CommonOptions& options, Sources& sources, CompileResult& result);
+/// A spec, and what it became.
+struct CompiledSpec {
+  LoadedSpec spec;
+  Bundle bundle;
+};
+
+/// Compile, and say what is wrong with the spec and its members. @return an exit code, 0 with a
+/// `result`
+int compile_spec(const CommonOptions& options, std::optional<CompiledSpec>& result);
 
 /// Refuses, at `simulation.record`, what needs more memory than is sensible.
 /// @param trajectories  that are kept at a time @return the exit code
-int check_memory(const CompileResult& compiled, double trajectories, const CommonOptions& options);
+int check_memory(const CompiledSpec& compiled, double trajectories, const CommonOptions& options);
 /// Refuses files for which the disk has no room. @param bytes  that they take, or more
 int check_disk(const Model& model, double bytes, const CommonOptions& options);
 

@@ -166,10 +166,11 @@ int write_results(const Bundle& bundle, const Options& options) {
 }
 
 /// Says what step the run would need, at the step that it has.
-void foresee(const CompileResult& result, Diagnostics& diagnostics) {
-  const Resolution foreseen = foresee_resolution(result.bundle->model);
+void foresee(const LoadedSpec& spec, const Model& model, Diagnostics& diagnostics) {
+  const Resolution foreseen = foresee_resolution(model);
   if (foreseen.resolved) return;
-  diagnostics.warning(Code::kUnresolvedStep, result.step, foreseen.reasons.front());
+  diagnostics.warning(Code::kUnresolvedStep, spec.simulation_span("step"),
+                      foreseen.reasons.front());
 }
 
 int check(const Bundle& bundle, const Options& options) {
@@ -187,24 +188,35 @@ int check(const Bundle& bundle, const Options& options) {
   return proof.pass() ? kExitDone : kExitFindings;
 }
 
+/// Nothing when there were errors, in the spec or in the members of its study.
+std::optional<Bundle> compile(const LoadResult& loaded, const Options& options,
+                              Diagnostics& diagnostics) {
+  if (!loaded.spec) return std::nullopt;
+  std::optional<Bundle> bundle = loaded.spec->compile(diagnostics);
+  if (!bundle) return std::nullopt;
+  loaded.spec->check_members(diagnostics);
+  if (diagnostics.has_errors()) return std::nullopt;
+  if (options.check) foresee(*loaded.spec, bundle->model, diagnostics);
+  return bundle;
+}
+
 int run(const Options& options) {
   if (options.schema) return print(json_schema());
   if (options.reference) return print(reference_markdown());
   if (!options.explain.empty()) return explain_code("sccompile", options.explain);
 
-  Sources sources;
   Diagnostics diagnostics;
-  const CompileResult result = compile(options.request, sources, diagnostics);
-  if (!result.io_error.empty()) {
-    complain(result.io_error);
+  const LoadResult loaded = load_spec(options.request, diagnostics);
+  if (!loaded.io_error.empty()) {
+    complain(loaded.io_error);
     return kExitInputOutput;
   }
-  if (options.check && result.bundle) foresee(result, diagnostics);
+  const std::optional<Bundle> bundle = compile(loaded, options, diagnostics);
   judge_warnings(options.warnings, diagnostics);
   if (const int code = report(diagnostics, options); code != kExitDone) return code;
-  if (result.bad_override) return kExitUsage;
-  if (!result.bundle || diagnostics.has_errors()) return kExitFindings;
-  return options.check ? check(*result.bundle, options) : write_results(*result.bundle, options);
+  if (loaded.bad_override) return kExitUsage;
+  if (!bundle || diagnostics.has_errors()) return kExitFindings;
+  return options.check ? check(*bundle, options) : write_results(*bundle, options);
 }
 
 int parse_and_run(int argc, char** argv) {

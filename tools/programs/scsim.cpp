@@ -115,9 +115,9 @@ int exit_code(const Outcome& outcome) {
   return finds ? kExitFindings : kExitDone;
 }
 
-MemberSpec compile_member(const Study& study, std::size_t index) {
+MemberSpec compile_member(const LoadedSpec& loaded, std::size_t index) {
   Diagnostics diagnostics;
-  MemberSpec spec{study.compile(index, diagnostics), {}};
+  MemberSpec spec{loaded.member(index, diagnostics), {}};
   for (const Diagnostic& fault : diagnostics.all())
     if (!spec.bundle && fault.severity == Severity::kError && spec.refusal.empty())
       spec.refusal = fault.message;
@@ -132,8 +132,7 @@ std::unique_ptr<MemberOutput> output_of(std::size_t index, const Bundle& bundle,
                                        outcome.report().provenance, outcome.output());
 }
 
-void run_single(std::optional<Bundle> bundle, const Options& options, RunOptions run,
-                Outcome& outcome) {
+void run_single(Bundle bundle, const Options& options, RunOptions run, Outcome& outcome) {
   run.side_by_side = jobs_of(options) > 1;
   FlownMember flown = run_one({std::move(bundle), {}}, run, [&](const Bundle& flying) {
     return output_of(0, flying, options, outcome);
@@ -142,30 +141,29 @@ void run_single(std::optional<Bundle> bundle, const Options& options, RunOptions
   outcome.take(std::move(flown.member));
 }
 
-void run_members(const Study& study, const Options& options, const RunOptions& run,
+void run_members(const LoadedSpec& spec, const Options& options, const RunOptions& run,
                  ProgressBar& bar, Outcome& outcome) {
   StudyRun plan;
-  plan.plan = study.plan();
-  plan.compile = [&study](std::size_t index) { return compile_member(study, index); };
+  plan.plan = *spec.study();
+  plan.compile = [&spec](std::size_t index) { return compile_member(spec, index); };
   plan.output = [&](std::size_t index, const Bundle& bundle) {
     return output_of(index, bundle, options, outcome);
   };
   plan.finished = [&](std::size_t index, ReportedMember member) {
-    if (run.progress) bar.leave(member_line(index, member, study.plan()));
+    if (run.progress) bar.leave(member_line(index, member, *spec.study()));
     outcome.take(std::move(member));
   };
   plan.jobs = jobs_of(options);
   run_study(plan, run);
 }
 
-int simulate(CompileResult compiled, const Options& options) {
-  ProgressBar bar(stderr, compiled.study ? 0.0 : compiled.bundle->model.simulation.duration);
-  std::optional<StudyPlan> plan;
-  if (compiled.study) plan = compiled.study->plan();
-  const RunOptions run = run_options(options, plan && plan->compare, bar);
-  Outcome outcome(options, std::move(plan));
-  if (compiled.study)
-    run_members(*compiled.study, options, run, bar, outcome);
+int simulate(CompiledSpec compiled, const Options& options) {
+  const StudyPlan* const study = compiled.spec.study();
+  ProgressBar bar(stderr, study != nullptr ? 0.0 : compiled.bundle.model.simulation.duration);
+  const RunOptions run = run_options(options, study != nullptr && study->compare, bar);
+  Outcome outcome(options, study != nullptr ? std::optional(*study) : std::nullopt);
+  if (study != nullptr)
+    run_members(compiled.spec, options, run, bar, outcome);
   else
     run_single(std::move(compiled.bundle), options, run, outcome);
   bar.clear();
@@ -185,28 +183,28 @@ double kept_trajectories(const StudyPlan& plan, int jobs) {
 }
 
 /// Whether memory holds what this run keeps, said now. @return the exit code
-int check_kept(const CompileResult& compiled, const Options& options) {
-  if (!compiled.study) return kExitDone;
+int check_kept(const CompiledSpec& compiled, const Options& options) {
+  if (compiled.spec.study() == nullptr) return kExitDone;
   const int jobs = options.trials > 0 ? 1 : jobs_of(options);
-  return check_memory(compiled, kept_trajectories(compiled.study->plan(), jobs), options);
+  return check_memory(compiled, kept_trajectories(*compiled.spec.study(), jobs), options);
 }
 
 /// The same of the disk and what it writes.
-int check_written(const CompileResult& compiled, const Options& options) {
-  const Model& model = compiled.bundle->model;
-  const double members = compiled.study ? static_cast<double>(compiled.study->plan().members) : 1.0;
+int check_written(const CompiledSpec& compiled, const Options& options) {
+  const Model& model = compiled.bundle.model;
+  const StudyPlan* const study = compiled.spec.study();
+  const double members = study != nullptr ? static_cast<double>(study->members) : 1.0;
   const double engines = options.engine == "both" && model.mujoco_refusal.empty() ? 2.0 : 1.0;
   return check_disk(model, members * engines * file_bytes(model, options.netcdf), options);
 }
 
 int compile_and_simulate(const Options& options) {
-  Sources sources;
-  CompileResult result;
-  if (const int code = compile_spec(options, sources, result); code != kExitDone) return code;
-  if (const int code = check_kept(result, options); code != kExitDone) return code;
+  std::optional<CompiledSpec> result;
+  if (const int code = compile_spec(options, result); code != kExitDone) return code;
+  if (const int code = check_kept(*result, options); code != kExitDone) return code;
   if (const int code = check_writable(first_files(options)); code != kExitDone) return code;
-  if (const int code = check_written(result, options); code != kExitDone) return code;
-  return simulate(std::move(result), options);
+  if (const int code = check_written(*result, options); code != kExitDone) return code;
+  return simulate(*std::move(result), options);
 }
 
 /// A word before all flags that is nearly a command and no file.
