@@ -11,10 +11,8 @@
 #include <utility>
 
 #include "compiler/analysis/verify.h"
-#include "compiler/emit/assembly_json.h"
 #include "compiler/emit/json.h"
-#include "compiler/emit/mjcf.h"
-#include "compiler/emit/resolved.h"
+#include "compiler/emit/target.h"
 #include "compiler/schema/manual.h"
 #include "compiler/schema/partial.h"
 #include "compiler/spec/spec.h"
@@ -131,20 +129,22 @@ std::vector<Setting> settings_of(const std::vector<Override>& changes, const Jso
   return settings;
 }
 
+/// @pre every name in `wanted` is a target's
 Bundle emit(Model model, const Spec& spec, const Origin& origin,
-            const std::vector<Override>& changes) {
+            const std::vector<Override>& changes, const Wanted& wanted) {
   const Json resolved = spec_table().write(spec);
   Bundle bundle;
-  if (model.mujoco_refusal.empty()) bundle.mjcf = emit_mjcf(model);
-  bundle.assembly_json = emit_bsm(model);
-  bundle.resolved_yaml = emit_resolved(resolved);
-  bundle.resolved_json = json_text(resolved);
+  for (const std::string_view name : wanted) {
+    const Target& target = *find_target(name);
+    if (!target.refusal(model).empty()) continue;
+    std::string text = target.print(model, resolved);
+    std::string digest = sha256(text);
+    bundle.emitted.insert_or_assign(std::string(name), Emitted{std::move(text), std::move(digest)});
+    if (name == kResolved) bundle.resolved_json = json_text(resolved);
+  }
   bundle.spec_file = origin.file;
   bundle.spec_sha256 = origin.sha256;
   bundle.settings = settings_of(changes, resolved);
-  bundle.emitted_sha256 = {{"bsm", sha256(bundle.assembly_json)},
-                           {"resolved", sha256(bundle.resolved_yaml)}};
-  if (!bundle.mjcf.empty()) bundle.emitted_sha256["mjcf"] = sha256(bundle.mjcf);
   bundle.model = std::move(model);
   return bundle;
 }
@@ -181,11 +181,12 @@ std::optional<Spec> read_changed(Node& root, const std::vector<Override>& change
 
 /// Spec to bundle. @param changes  that made the spec what it is
 std::optional<Bundle> bundle_of(const Spec& spec, const Origin& origin,
-                                const std::vector<Override>& changes, Diagnostics& diagnostics) {
+                                const std::vector<Override>& changes, const Wanted& wanted,
+                                Diagnostics& diagnostics) {
   std::optional<Model> model = lower_finite(spec, diagnostics);
   if (!model) return std::nullopt;
   require_one_machine(*model);
-  return emit(std::move(*model), spec, origin, changes);
+  return emit(std::move(*model), spec, origin, changes, wanted);
 }
 
 constexpr std::size_t kEnoughFaults = 50;
@@ -260,12 +261,12 @@ struct LoadedSpec::Parts {
 
   /// `root` with some changes, after those of the command line.
   std::optional<Bundle> compile_changed(Node root, const std::vector<Override>& changes,
-                                        Diagnostics& diagnostics) const {
+                                        const Wanted& wanted, Diagnostics& diagnostics) const {
     const std::optional<Spec> changed = read_changed(root, changes, diagnostics);
     if (!changed) return std::nullopt;
     std::vector<Override> all = tree.changes;
     all.insert(all.end(), changes.begin(), changes.end());
-    return bundle_of(*changed, tree.origin, all, diagnostics);
+    return bundle_of(*changed, tree.origin, all, wanted, diagnostics);
   }
 };
 
@@ -290,23 +291,24 @@ LoadResult load_spec(const CompileRequest& request, Diagnostics& diagnostics) {
   return {.spec = LoadedSpec(parts)};
 }
 
-std::optional<Bundle> LoadedSpec::compile(Diagnostics& diagnostics) const {
+std::optional<Bundle> LoadedSpec::compile(const Wanted& wanted, Diagnostics& diagnostics) const {
   diagnostics.keep(parts_->texts);
-  return bundle_of(parts_->spec, parts_->tree.origin, parts_->tree.changes, diagnostics);
+  return bundle_of(parts_->spec, parts_->tree.origin, parts_->tree.changes, wanted, diagnostics);
 }
 
 const StudyPlan* LoadedSpec::study() const {
   return parts_->study ? &parts_->study->plan : nullptr;
 }
 
-std::optional<Bundle> LoadedSpec::member(std::size_t index, Diagnostics& diagnostics) const {
+std::optional<Bundle> LoadedSpec::member(std::size_t index, const Wanted& wanted,
+                                         Diagnostics& diagnostics) const {
   diagnostics.keep(parts_->texts);
-  return parts_->compile_changed(parts_->base_of_members(), parts_->study->overrides(index),
+  return parts_->compile_changed(parts_->base_of_members(), parts_->study->overrides(index), wanted,
                                  diagnostics);
 }
 
 std::optional<Bundle> LoadedSpec::variant(const std::vector<std::string>& overrides,
-                                          Diagnostics& diagnostics) const {
+                                          const Wanted& wanted, Diagnostics& diagnostics) const {
   const auto texts = std::make_shared<Sources>();
   diagnostics.keep(parts_->texts);
   diagnostics.keep(texts);
@@ -315,7 +317,7 @@ std::optional<Bundle> LoadedSpec::variant(const std::vector<std::string>& overri
     if (std::optional<Override> change = parse_override(text, *texts, diagnostics))
       changes.push_back(std::move(*change));
   if (diagnostics.has_errors()) return std::nullopt;
-  return parts_->compile_changed(parts_->alone, changes, diagnostics);
+  return parts_->compile_changed(parts_->alone, changes, wanted, diagnostics);
 }
 
 void LoadedSpec::check_members(Diagnostics& diagnostics, const MemberProgress& progress) const {

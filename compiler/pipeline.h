@@ -23,6 +23,9 @@ struct CompileRequest {
   std::optional<std::string> text = {};  // of the spec, when it is no file; `file` is its name then
 };
 
+/// Names of targets, of compiler/emit/target.h.
+using Wanted = std::vector<std::string_view>;
+
 /// Called before each member of a study that is checked: how many are done, and of how many.
 using MemberProgress = std::function<void(std::size_t done, std::size_t planned)>;
 
@@ -30,25 +33,27 @@ using MemberProgress = std::function<void(std::size_t done, std::size_t planned)
 /// and the command line's changes. Copies share it. Any number of threads may compile from one at
 /// once, each with diagnostics of its own; nothing compiled is kept.
 ///
-/// What is compiled is nothing where the spec, as changed, has errors. All faults of a stage are
+/// What is compiled holds the wanted targets and no others; it is nothing where the spec, as
+/// changed, has errors. All faults of a stage are
 /// reported; a later stage runs only after an earlier one without errors.
 class LoadedSpec {
  public:
   /// The spec itself. @throws InternalError when the two halves of the model are not one machine;
   /// so do the others
-  std::optional<Bundle> compile(Diagnostics& diagnostics) const;
+  std::optional<Bundle> compile(const Wanted& wanted, Diagnostics& diagnostics) const;
 
   /// The study's members; nothing when the spec has none.
   const StudyPlan* study() const;
   /// @pre index < study()->members
-  std::optional<Bundle> member(std::size_t index, Diagnostics& diagnostics) const;
+  std::optional<Bundle> member(std::size_t index, const Wanted& wanted,
+                               Diagnostics& diagnostics) const;
   /// Report what is wrong with the members beyond what is wrong with the spec itself, short of
   /// compiling them to the end. @pre compile() gave a bundle
   void check_members(Diagnostics& diagnostics, const MemberProgress& progress = {}) const;
 
   /// The spec with further changes, without its study.
   /// @param overrides  `PATH=VALUE`, after those of the command line
-  std::optional<Bundle> variant(const std::vector<std::string>& overrides,
+  std::optional<Bundle> variant(const std::vector<std::string>& overrides, const Wanted& wanted,
                                 Diagnostics& diagnostics) const;
 
   /// Where `simulation` has `key`, or what stands for it.

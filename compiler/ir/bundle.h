@@ -3,6 +3,7 @@
 
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "compiler/ir/model.h"
@@ -10,16 +11,28 @@
 
 namespace twincraft {
 
+// Targets that are asked for by name. compiler/emit/target.h has the table of all.
+inline constexpr const char* kMjcf = "mjcf";          // what the MuJoCo engine loads
+inline constexpr const char* kAssemblyJson = "bsm";   // what the analytic engine starts from
+inline constexpr const char* kResolved = "resolved";  // every default filled in, SI units
+
+/// The model as one target writes it.
+struct Emitted {
+  std::string text;
+  std::string sha256;
+};
+
 struct Bundle {
   Model model;
-  std::string mjcf;               // NAME.xml: what the MuJoCo engine loads; empty when refused
-  std::string assembly_json;      // NAME.bsm.json
-  std::string resolved_yaml;      // NAME.resolved.yaml: every default filled in, SI units
-  std::string resolved_json;      // the same for reports
+  // By name; those that were wanted, but for one that the model refuses.
+  std::map<std::string, Emitted, std::less<>> emitted;
+  std::string resolved_json;      // what kResolved says, for programs; empty unless it was wanted
   std::string spec_file;          // as given
   std::string spec_sha256;        // of the bytes of the spec and of all it extends
   std::vector<Setting> settings;  // what the command line and a study changed, in that order
-  std::map<std::string, std::string> emitted_sha256;  // of mjcf, bsm and resolved, as written
+
+  /// Empty when the bundle does not hold it.
+  const std::string& text(std::string_view target) const;
 };
 
 }  // namespace twincraft

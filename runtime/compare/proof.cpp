@@ -275,7 +275,7 @@ ProofReport prove(const Bundle& bundle, const ProofProgress& progress) {
   if (!report.refusal.empty()) return report;
   try {
     const std::unique_ptr<Engine> bsm = make_bsm_engine(bundle.model);
-    const std::unique_ptr<Engine> mujoco = make_mujoco_engine(bundle.model, bundle.mjcf);
+    const std::unique_ptr<Engine> mujoco = make_mujoco_engine(bundle.model, bundle.text(kMjcf));
     return prove(bundle.model, *bsm, *mujoco, progress);
   } catch (const NumericalFailure& failure) {
     report.refusal = failure.what();

@@ -52,6 +52,12 @@ Json settings_json(const std::vector<Setting>& all) {
   return settings;
 }
 
+Json digests_json(const Bundle& bundle) {
+  Json digests = Json::object();
+  for (const auto& [target, emitted] : bundle.emitted) digests[target] = emitted.sha256;
+  return digests;
+}
+
 Json resolved_json(const Bundle& bundle) {
   Json resolved = Json::parse(bundle.resolved_json, nullptr, false);
   return resolved.is_discarded() ? Json::object() : resolved;
@@ -185,7 +191,7 @@ Json member_json(const ReportedMember& member) {
   const Member& result = member.result;
   Json json{{"verdict", verdict_name(result.verdict())},
             {"settings", settings_json(member.settings)},
-            {"emitted_sha256", member.bundle.emitted_sha256},
+            {"emitted_sha256", digests_json(member.bundle)},
             {"resolved", resolved_json(member.bundle)}};
   const std::string depletion = depletion_words(member.bundle.model);
   if (!depletion.empty()) json["depletion"] = depletion;

@@ -32,7 +32,7 @@ class Prediction {
         duration_(duration),
         feed_(bundle.model),
         bsm_(make_bsm_engine(bundle.model)),
-        mujoco_(make_mujoco_engine(bundle.model, bundle.mjcf)) {}
+        mujoco_(make_mujoco_engine(bundle.model, bundle.text(kMjcf))) {}
 
   double at(const Observation& seen) {
     const Eigen::VectorXd x = pack(seen, bsm_->layout());

@@ -6,9 +6,7 @@
 namespace twincraft {
 
 void ReportedMember::shed() {
-  bundle.mjcf = std::string();
-  bundle.assembly_json = std::string();
-  bundle.resolved_yaml = std::string();
+  for (auto& [target, emitted] : bundle.emitted) emitted.text = std::string();
   bundle.resolved_json = std::string();
   bundle.model.tree = {};
   for (EngineRun& run : result.engines) {

@@ -257,7 +257,7 @@ class TwinFlight {
 std::unique_ptr<Engine> build_engine(std::string_view name, const Bundle& bundle,
                                      bsm::InstructionSet instructions) {
   return is_bsm(name) ? make_bsm_engine(bundle.model, instructions)
-                      : make_mujoco_engine(bundle.model, bundle.mjcf);
+                      : make_mujoco_engine(bundle.model, bundle.text(kMjcf));
 }
 
 void fly_both(const Bundle& bundle, const RunOptions& options, MemberWatch* watch, Member& member) {

@@ -39,7 +39,7 @@ using MakeEngine = std::unique_ptr<Engine> (*)(const Bundle&);
 
 std::unique_ptr<Engine> analytic(const Bundle& bundle) { return make_bsm_engine(bundle.model); }
 std::unique_ptr<Engine> by_mujoco(const Bundle& bundle) {
-  return make_mujoco_engine(bundle.model, bundle.mjcf);
+  return make_mujoco_engine(bundle.model, bundle.text(kMjcf));
 }
 
 void evaluate(benchmark::State& loop, const Case& what, MakeEngine make) {

@@ -35,7 +35,7 @@ struct Options {
 };
 
 TimedEngine raw_run(const std::string& name, const Bundle& bundle, Pipeline pipeline) {
-  const auto raw = std::make_shared<RawMujoco>(bundle.mjcf, pipeline);
+  const auto raw = std::make_shared<RawMujoco>(bundle.text(kMjcf), pipeline);
   const SimulationPlan& plan = bundle.model.simulation;
   const auto steps = static_cast<std::size_t>(std::lround(plan.duration / plan.step));
   return {name, [raw, steps, h = plan.step] { return run_raw(*raw, h, steps); }};
@@ -43,7 +43,7 @@ TimedEngine raw_run(const std::string& name, const Bundle& bundle, Pipeline pipe
 
 std::unique_ptr<Engine> engine_of(const std::string& name, const Bundle& bundle) {
   const Model& model = bundle.model;
-  if (name == "mujoco") return make_mujoco_engine(model, bundle.mjcf);
+  if (name == "mujoco") return make_mujoco_engine(model, bundle.text(kMjcf));
   return make_bsm_engine(
       model, name == "portable" ? bsm::InstructionSet::kPortable : bsm::best_instruction_set());
 }

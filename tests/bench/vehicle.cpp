@@ -10,7 +10,7 @@ Bundle compiled(const std::string& spec, const std::vector<std::string>& setting
   const LoadResult loaded = load_spec({spec, settings}, diagnostics);
   if (!loaded.io_error.empty()) throw BadSpec(loaded.io_error);
   std::optional<Bundle> bundle;
-  if (loaded.spec) bundle = loaded.spec->compile(diagnostics);
+  if (loaded.spec) bundle = loaded.spec->compile({kMjcf}, diagnostics);
   if (!bundle) throw BadSpec(to_text(diagnostics, {}));
   bundle->model.simulation.method = Method::kRk4;
   return *std::move(bundle);

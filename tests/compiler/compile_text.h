@@ -32,7 +32,8 @@ class CompilesText : public testing::Test {
     LoadResult loaded = load_spec({path.string(), std::move(overrides)}, diagnostics_);
     std::filesystem::remove(path);
     if (!loaded.spec) return std::nullopt;
-    std::optional<Bundle> bundle = loaded.spec->compile(diagnostics_);
+    std::optional<Bundle> bundle =
+        loaded.spec->compile({kMjcf, kAssemblyJson, kResolved}, diagnostics_);
     if (bundle) loaded.spec->check_members(diagnostics_);
     if (diagnostics_.has_errors()) return std::nullopt;
     return Compiled{*std::move(loaded.spec), *std::move(bundle)};

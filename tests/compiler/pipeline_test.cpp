@@ -6,13 +6,17 @@
 
 #include <nlohmann/json.hpp>
 
+#include "compiler/emit/target.h"
 #include "tests/compiler/compile_text.h"
 
 namespace twincraft {
 namespace {
 
 using testing::Contains;
+using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Key;
+using testing::Not;
 using testing::SizeIs;
 
 class Pipeline : public CompilesText {
@@ -33,14 +37,34 @@ TEST_F(Pipeline, CompilesTheSmallestSpecWithoutAWord) {
   ASSERT_TRUE(result);
   EXPECT_THAT(diagnostics_.all(), SizeIs(0));
   EXPECT_EQ(result->bundle.model.name, "brick");
-  EXPECT_THAT(result->bundle.mjcf, HasSubstr("brick"));
+  EXPECT_THAT(result->bundle.text(kMjcf), HasSubstr("brick"));
   EXPECT_EQ(result->bundle.spec_sha256, sha256(kBrick));
   EXPECT_EQ(nlohmann::json::parse(result->bundle.resolved_json)["hub"]["mass"], 600.0);
-  const std::map<std::string, std::string> hashes = {
-      {"mjcf", sha256(result->bundle.mjcf)},
-      {"bsm", sha256(result->bundle.assembly_json)},
-      {"resolved", sha256(result->bundle.resolved_yaml)}};
-  EXPECT_EQ(result->bundle.emitted_sha256, hashes);
+  for (const auto& [target, emitted] : result->bundle.emitted)
+    EXPECT_EQ(emitted.sha256, sha256(emitted.text)) << target;
+}
+
+TEST_F(Pipeline, WritesTheTargetsThatAreWantedAndNoOthers) {
+  const std::optional<Compiled> result = compile_text(kBrick);
+  ASSERT_TRUE(result);
+  for (const Target& target : targets()) {
+    const std::optional<Bundle> bundle = result->spec.compile({target.name}, diagnostics_);
+    ASSERT_TRUE(bundle);
+    EXPECT_THAT(bundle->emitted, ElementsAre(Key(target.name)));
+    EXPECT_FALSE(bundle->text(target.name).empty());
+    EXPECT_EQ(bundle->resolved_json.empty(), target.name != kResolved);
+  }
+}
+
+TEST_F(Pipeline, LeavesOutATargetThatTheModelRefuses) {
+  const std::optional<Compiled> result =
+      compile_text(std::string(kBrick) +
+                   "panels:\n  - {name: wing, hinge: {position: [1, 0, 0], axis: [0, 1, 0], "
+                   "outboard: [1, 0, 0]},\n     mass: 60, length: 300, inertia: {shape: bar}, "
+                   "segments: 200, stiffness: 600}\n");
+  ASSERT_TRUE(result);
+  EXPECT_FALSE(find_target(kMjcf)->refusal(result->bundle.model).empty());
+  EXPECT_THAT(result->bundle.emitted, Not(Contains(Key(kMjcf))));
 }
 
 TEST_F(Pipeline, StopsAfterTheStageThatFoundFaults) {
@@ -75,7 +99,7 @@ TEST_F(Pipeline, CompilesVariantsOnTopOfTheCommandLineAndWithoutTheStudy) {
   ASSERT_TRUE(result);
   Diagnostics diagnostics;
   const auto resolved = [&](const std::vector<std::string>& overrides) {
-    const std::optional<Bundle> variant = result->spec.variant(overrides, diagnostics);
+    const std::optional<Bundle> variant = result->spec.variant(overrides, {kResolved}, diagnostics);
     return variant ? nlohmann::json::parse(variant->resolved_json) : nlohmann::json();
   };
   EXPECT_EQ(resolved({})["hub"]["mass"], 700.0);

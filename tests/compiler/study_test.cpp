@@ -35,7 +35,8 @@ class StudyOfAFile : public CompilesText {
  protected:
   Bundle member(const std::optional<Compiled>& result, std::size_t index) {
     Diagnostics diagnostics;
-    std::optional<Bundle> bundle = result->spec.member(index, diagnostics);
+    std::optional<Bundle> bundle =
+        result->spec.member(index, {kAssemblyJson, kResolved}, diagnostics);
     EXPECT_FALSE(diagnostics.has_errors());
     return std::move(bundle.value());
   }
@@ -46,7 +47,7 @@ class StudyOfAFile : public CompilesText {
     const std::string change =
         "hub.mass=" + std::to_string(1000 + index) + " " + kUnits.at(index % kUnits.size());
     Diagnostics diagnostics;
-    std::optional<Bundle> bundle = result->spec.variant({change}, diagnostics);
+    std::optional<Bundle> bundle = result->spec.variant({change}, {kAssemblyJson}, diagnostics);
     EXPECT_FALSE(diagnostics.has_errors()) << to_text(diagnostics, {});
     return std::move(bundle.value());
   }
@@ -196,11 +197,13 @@ TEST_F(StudyOfAFile, GivesTheSameMembersOnAnyNumberOfThreads) {
   for (std::size_t first = 0; first < 4; ++first)
     threads.emplace_back([&, first] {
       for (std::size_t i = first; i < count; i += 4)
-        texts[i] = member(result, i).assembly_json + variant(result, i).assembly_json;
+        texts[i] = member(result, i).text(kAssemblyJson) + variant(result, i).text(kAssemblyJson);
     });
   for (std::thread& thread : threads) thread.join();
   for (std::size_t i = 0; i < count; ++i)
-    EXPECT_EQ(texts[i], member(result, i).assembly_json + variant(result, i).assembly_json) << i;
+    EXPECT_EQ(texts[i],
+              member(result, i).text(kAssemblyJson) + variant(result, i).text(kAssemblyJson))
+        << i;
 }
 
 TEST_F(StudyOfAFile, ReportsAFaultThatManyMembersShareOnce) {

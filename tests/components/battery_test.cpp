@@ -86,7 +86,7 @@ class Battery : public testing::TestWithParam<const char*> {
  protected:
   Bundle bundle_ = compiled(GetParam());
   std::unique_ptr<Engine> bsm_ = make_bsm_engine(bundle_.model);
-  std::unique_ptr<Engine> mujoco_ = make_mujoco_engine(bundle_.model, bundle_.mjcf);
+  std::unique_ptr<Engine> mujoco_ = make_mujoco_engine(bundle_.model, bundle_.text(kMjcf));
 };
 
 TEST_P(Battery, GivesTheSameAccelerationsInBothEngines) {
@@ -136,7 +136,7 @@ TEST_P(Battery, FeelsNothingOfACommonVelocityOrPlaceWithoutGravity) {
   Model free = bundle_.model;
   free.gravity = {};
   const auto bsm = make_bsm_engine(free);
-  const auto mujoco = make_mujoco_engine(free, bundle_.mjcf);
+  const auto mujoco = make_mujoco_engine(free, bundle_.text(kMjcf));
   for (RandomState state : random_states(free, 20)) {
     const Eigen::VectorXd a = accelerations(free, *bsm, state);
     const Eigen::VectorXd b = accelerations(free, *mujoco, state);
@@ -200,7 +200,7 @@ class SameMachine : public testing::Test {
 
 TEST_F(SameMachine, WrittenAsBodiesHasTheAccelerationsOfThePanels) {
   const auto a = make_bsm_engine(panels_.model), b = make_bsm_engine(bodies_.model);
-  const auto c = make_mujoco_engine(bodies_.model, bodies_.mjcf);
+  const auto c = make_mujoco_engine(bodies_.model, bodies_.text(kMjcf));
   for (const RandomState& state : random_states(panels_.model, 50)) {
     const Eigen::VectorXd of_panels = accelerations(panels_.model, *a, state);
     // The same numbers by the same products: only rounding of the written decimals is left.
@@ -224,7 +224,7 @@ TEST_F(SameMachine, WrittenAsBodiesFliesAsThePanelsDo) {
     return comparison.metrics.at(0).maximum;
   };
   const auto a = make_bsm_engine(panels_.model), b = make_bsm_engine(bodies_.model);
-  const auto c = make_mujoco_engine(bodies_.model, bodies_.mjcf);
+  const auto c = make_mujoco_engine(bodies_.model, bodies_.text(kMjcf));
   const Trajectory of_panels = propagate(*a, panels_.model);
   const Trajectory of_bodies = propagate(*b, bodies_.model);
   const Comparison written = compare(bodies_.model, of_panels, of_bodies);
@@ -269,7 +269,7 @@ class BranchedArm : public testing::Test {
 
 TEST_F(BranchedArm, HasTheSameAccelerationsInBothEngines) {
   const auto bsm = make_bsm_engine(bundle_.model);
-  const auto mujoco = make_mujoco_engine(bundle_.model, bundle_.mjcf);
+  const auto mujoco = make_mujoco_engine(bundle_.model, bundle_.text(kMjcf));
   expect_same_accelerations(bundle_.model, *bsm, *mujoco);
 }
 

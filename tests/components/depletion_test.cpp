@@ -24,7 +24,7 @@ Bundle burn(const std::vector<std::string>& overrides = {}) {
 std::vector<std::unique_ptr<Engine>> both_engines(const Bundle& bundle) {
   std::vector<std::unique_ptr<Engine>> engines;
   engines.push_back(make_bsm_engine(bundle.model));
-  engines.push_back(make_mujoco_engine(bundle.model, bundle.mjcf));
+  engines.push_back(make_mujoco_engine(bundle.model, bundle.text(kMjcf)));
   return engines;
 }
 

@@ -23,11 +23,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const LoadResult loaded = load_spec(request, diagnostics);
   fuzz::claim(loaded.io_error.empty());
   std::optional<Bundle> bundle;
-  if (loaded.spec) bundle = loaded.spec->compile(diagnostics);
+  if (loaded.spec) bundle = loaded.spec->compile({kMjcf, kAssemblyJson, kResolved}, diagnostics);
   fuzz::claim(bundle.has_value() != diagnostics.has_errors());
   to_text(diagnostics, {});
   if (!bundle) return 0;
-  fuzz::claim(!bundle->assembly_json.empty() && !bundle->resolved_yaml.empty());
-  fuzz::claim(bundle->mjcf.empty() != bundle->model.mujoco_refusal.empty());
+  fuzz::claim(!bundle->text(kAssemblyJson).empty() && !bundle->text(kResolved).empty());
+  fuzz::claim(bundle->text(kMjcf).empty() != bundle->model.mujoco_refusal.empty());
   return 0;
 }

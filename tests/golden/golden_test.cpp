@@ -69,8 +69,8 @@ TEST(Golden, EverySpecCompilesToItsExpectedBytes) {
   ASSERT_FALSE(specs().empty());
   for (const fs::path& spec : specs()) {
     const Bundle bundle = compiled(spec);
-    expect_same(bundle.model.name + ".xml", bundle.mjcf);
-    expect_same(bundle.model.name + ".bsm.json", bundle.assembly_json);
+    expect_same(bundle.model.name + ".xml", bundle.text(kMjcf));
+    expect_same(bundle.model.name + ".bsm.json", bundle.text(kAssemblyJson));
   }
 }
 
@@ -87,11 +87,11 @@ TEST(Golden, EveryResolvedSpecCompilesToTheSameBytes) {
               "models/paper/studies", "tests/golden"})) {
     const Bundle bundle = compiled(spec);
     const fs::path resolved = fs::path(testing::TempDir()) / "golden_resolved.yaml";
-    std::ofstream(resolved) << bundle.resolved_yaml;
+    std::ofstream(resolved) << bundle.text(kResolved);
     const Bundle again = compiled(resolved);
-    EXPECT_EQ(again.mjcf, bundle.mjcf) << spec;
-    EXPECT_EQ(again.assembly_json, bundle.assembly_json) << spec;
-    EXPECT_EQ(again.resolved_yaml, bundle.resolved_yaml) << spec;
+    EXPECT_EQ(again.text(kMjcf), bundle.text(kMjcf)) << spec;
+    EXPECT_EQ(again.text(kAssemblyJson), bundle.text(kAssemblyJson)) << spec;
+    EXPECT_EQ(again.text(kResolved), bundle.text(kResolved)) << spec;
     fs::remove(resolved);
   }
 }

@@ -92,7 +92,7 @@ class Integrators : public testing::TestWithParam<Vehicle> {
                           "simulation.tolerance=1.0e-13", "simulation.step=1", "references=[]",
                           "simulation.duration=" + std::to_string(GetParam().duration)});
     engines.push_back(make_bsm_engine(bundle.model));
-    engines.push_back(make_mujoco_engine(bundle.model, bundle.mjcf));
+    engines.push_back(make_mujoco_engine(bundle.model, bundle.text(kMjcf)));
   }
 
   static void expect_same(const Observation& a, const Observation& b, double bound) {

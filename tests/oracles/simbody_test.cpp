@@ -25,7 +25,7 @@ TEST_P(Simbody, AgreesWithBothEngines) {
   const Bundle bundle = test::compiled_file(GetParam() + ".yaml");
   const Model& model = bundle.model;
   const auto bsm = make_bsm_engine(model);
-  const auto mujoco = make_mujoco_engine(model, bundle.mjcf);
+  const auto mujoco = make_mujoco_engine(model, bundle.text(kMjcf));
   for (const RandomState& state : random_states(model, 20)) {
     const Eigen::VectorXd truth = test::simbody_accelerations(model, model.gravity.bsm, state);
     const Eigen::VectorXd a = accelerations(model, *bsm, state);

@@ -69,10 +69,11 @@ class Examination {
                                             const std::string& file = "vehicle.yaml") {
     Diagnostics diagnostics;
     const LoadResult loaded = load_spec({file, {}, text}, diagnostics);
+    const Wanted wanted{kMjcf, kAssemblyJson, kResolved};
     std::optional<Bundle> bundle;
     if (loaded.spec)
-      bundle = loaded.spec->study() != nullptr ? loaded.spec->member(0, diagnostics)
-                                               : loaded.spec->compile(diagnostics);
+      bundle = loaded.spec->study() != nullptr ? loaded.spec->member(0, wanted, diagnostics)
+                                               : loaded.spec->compile(wanted, diagnostics);
     faults = to_text(diagnostics, {});
     return bundle;
   }
@@ -91,15 +92,17 @@ class Examination {
 
   bool is_resolved_to_itself() {
     std::string faults;
-    return is_the_same("resolved spec", compile_text(bundle_->resolved_yaml, faults), faults);
+    return is_the_same("resolved spec", compile_text(bundle_->text(kResolved), faults), faults);
   }
 
   bool is_the_same(const std::string& what, const std::optional<Bundle>& again,
                    const std::string& faults) {
     if (!again) return fail(what + " compiles", faults);
-    if (again->mjcf != bundle_->mjcf) return fail(what, "another MJCF");
-    if (again->assembly_json != bundle_->assembly_json) return fail(what, "another assembly");
-    if (again->resolved_yaml != bundle_->resolved_yaml) return fail(what, "another resolved spec");
+    if (again->text(kMjcf) != bundle_->text(kMjcf)) return fail(what, "another MJCF");
+    if (again->text(kAssemblyJson) != bundle_->text(kAssemblyJson))
+      return fail(what, "another assembly");
+    if (again->text(kResolved) != bundle_->text(kResolved))
+      return fail(what, "another resolved spec");
     return true;
   }
 
@@ -123,7 +126,7 @@ class Examination {
   }
 
   bool is_read_back() {
-    const MujocoModel m = load_mjcf(bundle_->mjcf);
+    const MujocoModel m = load_mjcf(bundle_->text(kMjcf));
     const BodyTree& tree = bundle_->model.tree;
     if (m->nbody != static_cast<int>(tree.bodies.size()) + 1)
       return fail("MJCF", fmt::format("{} bodies of {}", m->nbody - 1, tree.bodies.size()));
@@ -140,7 +143,7 @@ class Examination {
 
   bool is_proved() {
     bsm_ = make_bsm_engine(bundle_->model);
-    mujoco_ = make_mujoco_engine(bundle_->model, bundle_->mjcf);
+    mujoco_ = make_mujoco_engine(bundle_->model, bundle_->text(kMjcf));
     for (const ProofLine& line : prove(bundle_->model, *bsm_, *mujoco_).lines)
       if (!judge("BSM and MuJoCo, " + line.what, line.difference, line.bound, line.where))
         return false;
@@ -192,7 +195,7 @@ class Examination {
   /// A run, if it keeps momentum, angular momentum and energy.
   std::optional<Trajectory> balanced(const std::string& name, const Model& tight) {
     const auto engine =
-        name == "bsm" ? make_bsm_engine(tight) : make_mujoco_engine(tight, bundle_->mjcf);
+        name == "bsm" ? make_bsm_engine(tight) : make_mujoco_engine(tight, bundle_->text(kMjcf));
     LimitedEngine limited(*engine, kMostDerivatives);
     Trajectory run = propagate(limited, tight, {&limited.exhausted(), {}});
     if (run.status != Trajectory::Status::kComplete) {

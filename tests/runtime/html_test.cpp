@@ -142,7 +142,7 @@ EngineRun engine_run(const std::string& name, const Model& model) {
 Report small_report() {
   ReportedMember member;
   member.bundle.model = test::model_of_every_kind();
-  member.bundle.mjcf = "<mujoco/>";
+  member.bundle.emitted[kMjcf].text = "<mujoco/>";
   const Model& model = member.bundle.model;
   member.result.engines = {engine_run("bsm", model), engine_run("mujoco", model)};
   member.result.engines[1].trajectory.samples[1].omega_BN_B.x() += 2.5e-13;
@@ -211,8 +211,8 @@ Report hostile_report() {
   bundle.model.name = hostile;
   bundle.model.description = hostile;
   bundle.spec_file = hostile;
-  bundle.mjcf = "<mujoco>" + hostile;
-  bundle.resolved_yaml = hostile;
+  bundle.emitted[kMjcf].text = "<mujoco>" + hostile;
+  bundle.emitted[kResolved].text = hostile;
   for (Coordinate& coordinate : bundle.model.coordinates) coordinate.name = hostile;
   for (Link& link : bundle.model.assembly.links) link.name = hostile;
   report.members[0].settings = {{hostile, hostile}};

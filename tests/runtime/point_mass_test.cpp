@@ -38,7 +38,7 @@ TEST(PointMass, IsPulledByGravityWhereItsMassIsAndPushedByItsLoads) {
   const Bundle bundle = compiled();
   const Model& model = bundle.model;
   const auto bsm = make_bsm_engine(model);
-  const auto mujoco = make_mujoco_engine(model, bundle.mjcf);
+  const auto mujoco = make_mujoco_engine(model, bundle.text(kMjcf));
   for (const RandomState& state : random_states(model, 20)) {
     const Vector3d r = state.r_BN_N + Vector3d(0.1, -0.2, 0.05);
     Vector3d expected = -model.gravity.mu / std::pow(r.norm(), 3) * r;
@@ -59,7 +59,7 @@ TEST(PointMass, IsProvedToBeOneMachine) {
 }
 
 TEST(PointMass, SlidesOnThreeJoints) {
-  const std::string mjcf = compiled().mjcf;
+  const std::string mjcf = compiled().text(kMjcf);
   EXPECT_THAT(mjcf, Not(HasSubstr("freejoint")));
   EXPECT_THAT(mjcf, HasSubstr(R"(<joint name="hub.y" type="slide" axis="0 1 0"/>)"));
   EXPECT_THAT(mjcf, HasSubstr(R"(qpos="0 0 0" qvel="0 0 0")"));
@@ -68,7 +68,7 @@ TEST(PointMass, SlidesOnThreeJoints) {
 TEST(PointMass, BalancesItsBooksAndShowsNoAttitude) {
   const Bundle bundle = compiled();
   for (const auto& engine :
-       {make_bsm_engine(bundle.model), make_mujoco_engine(bundle.model, bundle.mjcf)}) {
+       {make_bsm_engine(bundle.model), make_mujoco_engine(bundle.model, bundle.text(kMjcf))}) {
     const Trajectory run = propagate(*engine, bundle.model);
     ASSERT_EQ(run.status, Trajectory::Status::kComplete) << run.failure;
     const Observation& last = run.samples.back();
@@ -87,7 +87,7 @@ TEST(PointMass, IsComparedWithoutAttitude) {
     return propagate(*engine, bundle.model);
   };
   const Comparison comparison = compare(bundle.model, run(make_bsm_engine(bundle.model)),
-                                        run(make_mujoco_engine(bundle.model, bundle.mjcf)));
+                                        run(make_mujoco_engine(bundle.model, bundle.text(kMjcf))));
   std::vector<std::string> keys;
   for (const Metric& metric : comparison.metrics) keys.push_back(metric.key);
   EXPECT_THAT(keys,

@@ -28,7 +28,7 @@ Model scheduled(Model model) {
 
 Bundle bundle_of(Model model) {
   Bundle bundle;
-  bundle.mjcf = emit_mjcf(model);
+  bundle.emitted[kMjcf].text = emit_mjcf(model);
   bundle.model = std::move(model);
   return bundle;
 }

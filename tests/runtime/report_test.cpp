@@ -47,7 +47,7 @@ Report sound_report() {
   model.agreement.rate = 1.0e-12;
   member.bundle.spec_file = "spec.yaml";
   member.bundle.spec_sha256 = "abc";
-  member.bundle.emitted_sha256 = {{"mjcf", "def"}};
+  member.bundle.emitted[kMjcf].sha256 = "def";
   member.bundle.resolved_json = R"({"name": "every_kind"})";
   member.settings = {{"simulation.step", "0.02"}, {"simulation.duration", "10 s"}};
   Member& result = member.result;

@@ -16,7 +16,7 @@ inline Bundle compiled(const CompileRequest& request) {
   Diagnostics diagnostics;
   const LoadResult loaded = load_spec(request, diagnostics);
   std::optional<Bundle> bundle;
-  if (loaded.spec) bundle = loaded.spec->compile(diagnostics);
+  if (loaded.spec) bundle = loaded.spec->compile({kMjcf, kAssemblyJson, kResolved}, diagnostics);
   if (!bundle) throw std::runtime_error(loaded.io_error + to_text(diagnostics, {}));
   return *std::move(bundle);
 }

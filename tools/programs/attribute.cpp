@@ -52,7 +52,7 @@ MemberSpec without_references(std::optional<Bundle> bundle) {
 
 MemberSpec compile_variant(const LoadedSpec& loaded, const Overrides& changes) {
   Diagnostics diagnostics;
-  MemberSpec spec = without_references(loaded.variant(changes, diagnostics));
+  MemberSpec spec = without_references(loaded.variant(changes, {kMjcf}, diagnostics));
   for (const Diagnostic& fault : diagnostics.all())
     if (!spec.bundle && fault.severity == Severity::kError && spec.refusal.empty())
       spec.refusal = fault.message;
@@ -186,8 +186,10 @@ int attribute_command(int argc, char** argv) {
   describe(app, options);
   if (const std::optional<int> code = parse_command_line(app, argc, argv)) return *code;
   if (const std::optional<int> code = settle_flags("scsim attribute", options)) return *code;
+  Wanted wanted = wanted_by_run(options);
+  wanted.push_back(kResolved);  // causes are read from it
   std::optional<CompiledSpec> compiled;
-  if (const int code = compile_spec(options, compiled); code != kExitDone) return code;
+  if (const int code = compile_spec(options, wanted, compiled); code != kExitDone) return code;
   // The run itself and a variant per job, of both engines.
   const int code_of_memory = check_memory(*compiled, 2.0 * (1.0 + jobs_of(options)), options);
   if (code_of_memory != kExitDone) return code_of_memory;

@@ -188,7 +188,13 @@ Provenance provenance_of(const CommonOptions& options) {
   return made;
 }
 
-int compile_spec(const CommonOptions& options, std::optional<CompiledSpec>& result) {
+Wanted wanted_by_run(const CommonOptions& options) {
+  if (options.folder.empty()) return {kMjcf};
+  return {kMjcf, kAssemblyJson, kResolved};
+}
+
+int compile_spec(const CommonOptions& options, const Wanted& wanted,
+                 std::optional<CompiledSpec>& result) {
   Diagnostics diagnostics;
   LoadResult loaded = load_spec(options.request, diagnostics);
   if (!loaded.io_error.empty()) {
@@ -196,7 +202,7 @@ int compile_spec(const CommonOptions& options, std::optional<CompiledSpec>& resu
     return kExitInputOutput;
   }
   std::optional<Bundle> bundle;
-  if (loaded.spec) bundle = loaded.spec->compile(diagnostics);
+  if (loaded.spec) bundle = loaded.spec->compile(wanted, diagnostics);
   if (bundle) check_members(*loaded.spec, options, diagnostics);
   judge_warnings(options.warnings, diagnostics);
   if (const int code = print_diagnostics(diagnostics, options); code != kExitDone) return code;

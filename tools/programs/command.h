@@ -58,7 +58,11 @@ struct CompiledSpec {
 
 /// Compile, and say what is wrong with the spec and its members. @return an exit code, 0 with a
 /// `result`
-int compile_spec(const CommonOptions& options, std::optional<CompiledSpec>& result);
+int compile_spec(const CommonOptions& options, const Wanted& wanted,
+                 std::optional<CompiledSpec>& result);
+
+/// The targets that a run needs: what MuJoCo loads, and with a report those whose digests it has.
+Wanted wanted_by_run(const CommonOptions& options);
 
 /// Refuses, at `simulation.record`, what needs more memory than is sensible.
 /// @param trajectories  that are kept at a time @return the exit code

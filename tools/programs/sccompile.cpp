@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "compiler/diag/print.h"
-#include "compiler/emit/dot.h"
+#include "compiler/emit/target.h"
 #include "compiler/files/output.h"
 #include "compiler/pipeline.h"
 #include "runtime/compare/proof.h"
@@ -22,13 +22,12 @@
 namespace twincraft {
 namespace {
 
-const std::vector<std::string> kTargets = {"mjcf", "bsm", "resolved", "dot"};
 const std::vector<std::string> kFormats = {"text", "json", "sarif"};
 
 struct Options {
   CompileRequest request;
   std::string folder = ".";
-  std::string emit = "mjcf,bsm";
+  std::string emit = fmt::format("{},{}", kMjcf, kAssemblyJson);
   std::string diagnostics = "text";
   std::size_t max_errors = PrintOptions{}.max_errors;
   std::vector<std::string> warnings;  // what stands after -W
@@ -36,7 +35,7 @@ struct Options {
   std::string explain;
   bool schema = false;
   bool reference = false;
-  std::vector<std::string> targets;  // of `emit`
+  std::vector<const Target*> targets;  // of `emit`
 };
 
 void complain(const std::string& text) {
@@ -53,12 +52,26 @@ std::string did_you_mean(const std::string& word, const std::vector<std::string>
                       : fmt::format("did you mean `{}`?", near);
 }
 
+std::vector<std::string> target_names() {
+  std::vector<std::string> names;
+  for (const Target& target : targets()) names.emplace_back(target.name);
+  return names;
+}
+
+/// A line for each: what it is called and what it writes.
+std::string target_lines() {
+  std::string lines;
+  for (const Target& target : targets())
+    lines += fmt::format("  {:<9} DIR/NAME{:<15} {}\n", target.name, target.suffix, target.what);
+  return lines;
+}
+
 void describe(CLI::App& app, Options& options) {
   app.add_option("SPEC", options.request.file, "spacecraft spec, or - for standard input")
       ->type_name("");
   app.add_option("-o,--output", options.folder, "folder of the results, or - for standard output")
       ->type_name("DIR");
-  app.add_option("--emit", options.emit, "what to write: mjcf, bsm, resolved, dot")
+  app.add_option("--emit", options.emit, fmt::format("what to write (default {})", options.emit))
       ->type_name("LIST");
   app.add_option("--set", options.request.overrides, "change the spec first; repeatable")
       ->type_name("PATH=VALUE")
@@ -77,8 +90,8 @@ void describe(CLI::App& app, Options& options) {
   app.set_help_flag("-h,--help", "print this");
   app.set_version_flag("--version", "sccompile " TWINCRAFT_VERSION, "print the version");
   app.footer(
-      "The results are DIR/NAME.xml (mjcf), NAME.bsm.json, NAME.resolved.yaml, NAME.dot.\n"
-      "Exit: 0 done, 1 the spec has faults, 2 usage, 3 input/output, 4 internal failure.\n\n"
+      "Results:\n" + target_lines() +
+      "\nExit: 0 done, 1 the spec has faults, 2 usage, 3 input/output, 4 internal failure.\n\n"
       "Example: sccompile models/quickstart.yaml -o out --set wheels.rw_x.speed='6000 rpm'");
 }
 
@@ -89,10 +102,10 @@ std::optional<int> refuse_bad_values(Options& options) {
                  did_you_mean(options.diagnostics, kFormats));
   }
   for (const std::string& word : CLI::detail::split(options.emit, ',')) {
-    const std::string target = CLI::detail::trim_copy(word);
-    if (std::find(kTargets.begin(), kTargets.end(), target) == kTargets.end()) {
-      return usage("`--emit` cannot be " + in_backticks(target), did_you_mean(target, kTargets));
-    }
+    const std::string name = CLI::detail::trim_copy(word);
+    const Target* target = find_target(name);
+    if (target == nullptr)
+      return usage("`--emit` cannot be " + in_backticks(name), did_you_mean(name, target_names()));
     options.targets.push_back(target);
   }
   const bool to_stdout = options.folder == "-" && !options.check;
@@ -137,27 +150,19 @@ int report(const Diagnostics& diagnostics, const Options& options) {
   return kExitDone;
 }
 
-OutputFile result_of(const Bundle& bundle, const std::string& target) {
-  const std::string& name = bundle.model.name;
-  if (target == "mjcf") return {name + ".xml", bundle.mjcf};
-  if (target == "bsm") return {name + ".bsm.json", bundle.assembly_json};
-  if (target == "resolved") return {name + ".resolved.yaml", bundle.resolved_yaml};
-  return {name + ".dot", emit_dot(bundle.model)};
-}
-
 int write_results(const Bundle& bundle, const Options& options) {
   int code = kExitDone;
   std::vector<OutputFile> files;
-  for (const std::string& target : options.targets) {
-    OutputFile file = result_of(bundle, target);
-    if (target == "mjcf" && bundle.mjcf.empty()) {
-      complain(fmt::format("`{}` is not written: {}", file.path, bundle.model.mujoco_refusal));
+  for (const Target* target : options.targets) {
+    const std::string name = fmt::format("{}{}", bundle.model.name, target->suffix);
+    if (const std::string refusal = target->refusal(bundle.model); !refusal.empty()) {
+      complain(fmt::format("`{}` is not written: {}", name, refusal));
       code = kExitFindings;
       continue;
     }
-    if (options.folder == "-") return print(file.text);
-    file.path = (std::filesystem::path(options.folder) / file.path).string();
-    files.push_back(std::move(file));
+    const std::string& text = bundle.text(target->name);
+    if (options.folder == "-") return print(text);
+    files.push_back({(std::filesystem::path(options.folder) / name).string(), text});
   }
   const std::string error = write_files(files);
   if (error.empty()) return code;
@@ -188,11 +193,18 @@ int check(const Bundle& bundle, const Options& options) {
   return proof.pass() ? kExitDone : kExitFindings;
 }
 
+Wanted wanted_by(const Options& options) {
+  if (options.check) return {kMjcf};
+  Wanted wanted;
+  for (const Target* target : options.targets) wanted.push_back(target->name);
+  return wanted;
+}
+
 /// Nothing when there were errors, in the spec or in the members of its study.
 std::optional<Bundle> compile(const LoadResult& loaded, const Options& options,
                               Diagnostics& diagnostics) {
   if (!loaded.spec) return std::nullopt;
-  std::optional<Bundle> bundle = loaded.spec->compile(diagnostics);
+  std::optional<Bundle> bundle = loaded.spec->compile(wanted_by(options), diagnostics);
   if (!bundle) return std::nullopt;
   loaded.spec->check_members(diagnostics);
   if (diagnostics.has_errors()) return std::nullopt;

@@ -115,9 +115,9 @@ int exit_code(const Outcome& outcome) {
   return finds ? kExitFindings : kExitDone;
 }
 
-MemberSpec compile_member(const LoadedSpec& loaded, std::size_t index) {
+MemberSpec compile_member(const LoadedSpec& loaded, std::size_t index, const Wanted& wanted) {
   Diagnostics diagnostics;
-  MemberSpec spec{loaded.member(index, diagnostics), {}};
+  MemberSpec spec{loaded.member(index, wanted, diagnostics), {}};
   for (const Diagnostic& fault : diagnostics.all())
     if (!spec.bundle && fault.severity == Severity::kError && spec.refusal.empty())
       spec.refusal = fault.message;
@@ -145,7 +145,9 @@ void run_members(const LoadedSpec& spec, const Options& options, const RunOption
                  ProgressBar& bar, Outcome& outcome) {
   StudyRun plan;
   plan.plan = *spec.study();
-  plan.compile = [&spec](std::size_t index) { return compile_member(spec, index); };
+  plan.compile = [&spec, wanted = wanted_by_run(options)](std::size_t index) {
+    return compile_member(spec, index, wanted);
+  };
   plan.output = [&](std::size_t index, const Bundle& bundle) {
     return output_of(index, bundle, options, outcome);
   };
@@ -200,7 +202,8 @@ int check_written(const CompiledSpec& compiled, const Options& options) {
 
 int compile_and_simulate(const Options& options) {
   std::optional<CompiledSpec> result;
-  if (const int code = compile_spec(options, result); code != kExitDone) return code;
+  if (const int code = compile_spec(options, wanted_by_run(options), result); code != kExitDone)
+    return code;
   if (const int code = check_kept(*result, options); code != kExitDone) return code;
   if (const int code = check_writable(first_files(options)); code != kExitDone) return code;
   if (const int code = check_written(*result, options); code != kExitDone) return code;

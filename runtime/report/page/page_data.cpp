@@ -74,8 +74,8 @@ std::string page_data(const Report& report) {
             {"report", std::move(shown)},
             {"histories", histories_json(first)},
             {"replay", replay_json(first)},
-            {"mjcf", first.bundle.mjcf},
-            {"resolved", first.bundle.resolved_yaml}};
+            {kMjcf, first.bundle.text(kMjcf)},
+            {kResolved, first.bundle.text(kResolved)}};
   const std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
   std::string safe;
   safe.reserve(text.size() + text.size() / 64);

@@ -59,7 +59,7 @@ Json wheel_names(const Model& model) {
 
 Json replay_json(const ReportedMember& member) {
   const Model& model = member.bundle.model;
-  if (member.bundle.mjcf.empty()) return nullptr;
+  if (member.bundle.text(kMjcf).empty()) return nullptr;
   Json json{{"joints", joint_names(model)},
             {"wheels", wheel_names(model)},
             {"forces", forces_json(model)},
