@@ -209,15 +209,15 @@ const Table<BodySpec>& body_table() {
 
 bool is_fixed(const BodySpec& body) { return body.joint.type == JointType::kFixed; }
 
-void check(const BodySpec& body, const Names& names, Diagnostics& diagnostics) {
+void check(const BodySpec& body, const Context& context, Diagnostics& diagnostics) {
   const std::string who = fmt::format("body `{}`", body.name);
-  check_mount(body.parent, body.span_of("parent"), who, names, diagnostics);
+  check_mount(body.parent, body.span_of("parent"), who, context.names, diagnostics);
   if (body.orientation) check_orientation(*body.orientation, who, diagnostics);
   check_mass(body.mass, body.span_of("mass"), who, diagnostics);
   check_inertia(body.inertia, body.span_of("inertia"), who, diagnostics);
 }
 
-void check_circles(const std::vector<BodySpec>& bodies, Diagnostics& diagnostics) {
+void check_together(const std::vector<BodySpec>& bodies, const Context&, Diagnostics& diagnostics) {
   std::map<std::string, const BodySpec*> by_name;
   for (const BodySpec& body : bodies) by_name.emplace(body.name, &body);
   std::set<const BodySpec*> walked;
@@ -235,6 +235,9 @@ void check_circles(const std::vector<BodySpec>& bodies, Diagnostics& diagnostics
   }
 }
 
+namespace {
+
+/// Parents before children and a branch in one piece, otherwise as written.
 std::vector<const BodySpec*> parents_first(const std::vector<BodySpec>& bodies) {
   std::map<std::string, std::vector<const BodySpec*>> children;  // last written first
   for (auto body = bodies.rbegin(); body != bodies.rend(); ++body) {
@@ -252,7 +255,7 @@ std::vector<const BodySpec*> parents_first(const std::vector<BodySpec>& bodies) 
   return order;
 }
 
-void lower(const BodySpec& body, ModelBuilder& builder) {
+void lower_mount(const BodySpec& body, ModelBuilder& builder) {
   const Mount parent = builder.find_mount(body.parent);
   const Mount mount =
       is_fixed(body) ? builder.add_fixed_body(parent, body.name, body.joint.position, turn_of(body))
@@ -260,12 +263,22 @@ void lower(const BodySpec& body, ModelBuilder& builder) {
   builder.add_mass(mount, {body.name, body.mass, body.center_of_mass, body.inertia});
 }
 
-void lower_coordinate(const BodySpec& body, ModelBuilder& builder) {
+}  // namespace
+
+void lower_mounts(const std::vector<BodySpec>& bodies, ModelBuilder& builder) {
+  for (const BodySpec* body : parents_first(bodies)) lower_mount(*body, builder);
+}
+
+void lower(const BodySpec& body, const Vehicle&, ModelBuilder& builder) {
   if (is_fixed(body)) return;
   const bool slides = body.joint.type == JointType::kPrismatic;
   builder.add_coordinate(
       slides ? Coordinate::Kind::kBodyDisplacement : Coordinate::Kind::kBodyAngle, body.name,
       builder.find_mount(body.name).link, body.joint.coordinate, body.joint.rate);
 }
+
+Coordinates coordinates_of(const BodySpec& body) { return {1, body.span_of("name")}; }
+
+double mass_of(const BodySpec& body) { return body.mass; }
 
 }  // namespace twincraft

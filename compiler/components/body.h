@@ -11,9 +11,7 @@
 #include <vector>
 
 #include "compiler/components/attitude.h"
-#include "compiler/components/model_builder.h"
-#include "compiler/components/names.h"
-#include "compiler/schema/table.h"
+#include "compiler/components/section.h"
 
 namespace twincraft {
 
@@ -49,19 +47,20 @@ const Table<BodySpec>& body_table();
 bool is_fixed(const BodySpec& body);
 
 /// Parent, orientation, mass and inertia.
-void check(const BodySpec& body, const Names& names, Diagnostics& diagnostics);
+void check(const BodySpec& body, const Context& context, Diagnostics& diagnostics);
 
 /// Report bodies that carry one another in a circle, each circle once.
-void check_circles(const std::vector<BodySpec>& bodies, Diagnostics& diagnostics);
+void check_together(const std::vector<BodySpec>& bodies, const Context& context,
+                    Diagnostics& diagnostics);
 
-/// Parents before children and a branch in one piece, otherwise as written.
-/// @pre every parent is the hub or a body, and there is no circle
-std::vector<const BodySpec*> parents_first(const std::vector<BodySpec>& bodies);
+/// A link with its mass, or a fixed body, for each: parents before children and a branch in one
+/// piece, otherwise as written. @pre every parent is the hub or a body, and there is no circle
+void lower_mounts(const std::vector<BodySpec>& bodies, ModelBuilder& builder);
 
-/// A link with the body's mass, or a fixed body. @pre the parent is in the builder
-void lower(const BodySpec& body, ModelBuilder& builder);
+/// What the body adds to the coordinates; nothing when it is fixed.
+void lower(const BodySpec& body, const Vehicle& vehicle, ModelBuilder& builder);
 
-/// What the body adds to the coordinates; nothing when it is fixed. @pre lower() came before
-void lower_coordinate(const BodySpec& body, ModelBuilder& builder);
+Coordinates coordinates_of(const BodySpec& body);
+double mass_of(const BodySpec& body);
 
 }  // namespace twincraft

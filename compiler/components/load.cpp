@@ -25,12 +25,13 @@ const Table<LoadSpec>& load_table() {
   return table;
 }
 
-void check(const LoadSpec& load, const Names& names, Diagnostics& diagnostics) {
-  check_mount(load.mount, load.span_of("mount"), fmt::format("load `{}`", load.name), names,
-              diagnostics);
+void check(const LoadSpec& load, const Context& context, Diagnostics& diagnostics) {
+  const std::string who = fmt::format("load `{}`", load.name);
+  check_mount(load.mount, load.span_of("mount"), who, context.names, diagnostics);
+  check_acts(load.during, load.span_of("during"), who, context, diagnostics);
 }
 
-void lower(const LoadSpec& spec, ModelBuilder& builder) {
+void lower(const LoadSpec& spec, const Vehicle&, ModelBuilder& builder) {
   Load load;
   load.name = spec.name;
   load.force_L = spec.force;

@@ -6,9 +6,7 @@
 #include <optional>
 #include <variant>
 
-#include "compiler/components/model_builder.h"
-#include "compiler/components/names.h"
-#include "compiler/schema/table.h"
+#include "compiler/components/section.h"
 
 namespace twincraft {
 
@@ -26,9 +24,13 @@ struct LoadSpec : Written {
 
 const Table<LoadSpec>& load_table();
 
-void check(const LoadSpec& load, const Names& names, Diagnostics& diagnostics);
+/// Its mount exists, and it acts in the run.
+void check(const LoadSpec& load, const Context& context, Diagnostics& diagnostics);
 
 /// Intervals are folded into the schedules.
-void lower(const LoadSpec& load, ModelBuilder& builder);
+void lower(const LoadSpec& load, const Vehicle& vehicle, ModelBuilder& builder);
+
+/// Its force acts on a point as well.
+inline bool fits_point_mass(const LoadSpec&) { return true; }
 
 }  // namespace twincraft

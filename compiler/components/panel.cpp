@@ -244,22 +244,26 @@ double inertia_about_hinge(const PanelSpec& panel) {
   return segment_inertia(panel)(1, 1) + segment_mass(panel) * d * d;
 }
 
-}  // namespace
-
+/// [s] Nothing when no hinge has a spring.
 std::optional<double> segment_period(const PanelSpec& panel) {
   const double k = *std::max_element(panel.stiffness.begin(), panel.stiffness.end());
   if (!(k > 0.0)) return std::nullopt;
   return 2.0 * std::numbers::pi * std::sqrt(inertia_about_hinge(panel) / k);
 }
 
+/// No damper of the panel decays faster than this [1/s]: c/J of a single segment, J about its
+/// hinge. In a chain the dampers act as the square of a second difference, whose largest eigenvalue
+/// is sixteen; no chain of up to 64 equal segments was found to decay faster.
 double fastest_decay(const PanelSpec& panel) {
   const double c = *std::max_element(panel.damping.begin(), panel.damping.end());
   return (panel.segments > 1 ? 16.0 : 1.0) * c / inertia_about_hinge(panel);
 }
 
-void check(const PanelSpec& panel, const Names& names, Diagnostics& diagnostics) {
+}  // namespace
+
+void check(const PanelSpec& panel, const Context& context, Diagnostics& diagnostics) {
   const std::string who = fmt::format("panel `{}`", panel.name);
-  check_mount(panel.mount, panel.span_of("mount"), who, names, diagnostics);
+  check_mount(panel.mount, panel.span_of("mount"), who, context.names, diagnostics);
   check_hinge(panel.hinge, who, diagnostics);
   check_mass(segment_mass(panel), panel.span_of("mass"), "a segment of " + who, diagnostics);
   check_inertia_of(panel, who, diagnostics);
@@ -270,7 +274,7 @@ void check(const PanelSpec& panel, const Names& names, Diagnostics& diagnostics)
   check_length(panel, "rate", panel.rate, who, diagnostics);
 }
 
-void lower(const PanelSpec& panel, ModelBuilder& builder) {
+void lower(const PanelSpec& panel, const Vehicle&, ModelBuilder& builder) {
   const Vector3d middle(segment_length(panel) / 2.0, 0.0, 0.0);
   const Matrix3d inertia = segment_inertia(panel);
   const auto segments = static_cast<std::size_t>(panel.segments);
@@ -283,6 +287,21 @@ void lower(const PanelSpec& panel, ModelBuilder& builder) {
     builder.add_coordinate(Coordinate::Kind::kPanel, name, mount.link, of_root(panel.angle, i),
                            of_root(panel.rate, i));
   }
+}
+
+Coordinates coordinates_of(const PanelSpec& panel) {
+  return {panel.segments, panel.span_of("segments")};
+}
+
+double mass_of(const PanelSpec& panel) { return panel.mass; }
+
+std::vector<Oscillator> oscillators_of(const std::vector<PanelSpec>& panels, const Vehicle&) {
+  std::vector<Oscillator> all;
+  for (const PanelSpec& panel : panels)
+    all.push_back({panel.name, fmt::format("panel `{}`", panel.name), segment_period(panel),
+                   "no hinge of it has stiffness", panel.span_of("stiffness"),
+                   fastest_decay(panel)});
+  return all;
 }
 
 }  // namespace twincraft

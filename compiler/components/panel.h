@@ -8,9 +8,7 @@
 #include <optional>
 #include <variant>
 
-#include "compiler/components/model_builder.h"
-#include "compiler/components/names.h"
-#include "compiler/schema/table.h"
+#include "compiler/components/section.h"
 
 namespace twincraft {
 
@@ -56,19 +54,17 @@ double segment_mass(const PanelSpec& panel);       // [kg]
 double segment_length(const PanelSpec& panel);     // [m]
 Matrix3d segment_inertia(const PanelSpec& panel);  // [kg m^2] about its centre, segment axes
 
-/// The shortest period 2 pi sqrt((I + m d^2)/k) [s] of one segment on one of the hinges; nothing
-/// when no hinge has a spring.
-std::optional<double> segment_period(const PanelSpec& panel);
-
-/// No damper of the panel decays faster than this [1/s]: c/J of a single segment, J about its
-/// hinge. In a chain the dampers act as the square of a second difference, whose largest eigenvalue
-/// is sixteen; no chain of up to 64 equal segments was found to decay faster.
-double fastest_decay(const PanelSpec& panel);
-
 /// Mount, a right-angled hinge frame, list lengths, and an inertia that some body has.
-void check(const PanelSpec& panel, const Names& names, Diagnostics& diagnostics);
+void check(const PanelSpec& panel, const Context& context, Diagnostics& diagnostics);
 
 /// Links `NAME.1` (root) to `NAME.N` (tip), one hinge coordinate each.
-void lower(const PanelSpec& panel, ModelBuilder& builder);
+void lower(const PanelSpec& panel, const Vehicle& vehicle, ModelBuilder& builder);
+
+Coordinates coordinates_of(const PanelSpec& panel);
+double mass_of(const PanelSpec& panel);
+
+/// By the shortest period 2 pi sqrt((I + m d^2)/k) of one segment on one of the hinges.
+std::vector<Oscillator> oscillators_of(const std::vector<PanelSpec>& panels,
+                                       const Vehicle& vehicle);
 
 }  // namespace twincraft

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "compiler/components/physical.h"
+#include "compiler/components/vehicle.h"
 #include "compiler/ir/number.h"
 
 namespace twincraft {
@@ -34,6 +35,25 @@ void check_place(const SloshSpec& slosh, const TankSpec& tank, const std::string
                                 who, tank.name));
 }
 
+/// @param acceleration  of the vehicle [m/s^2]
+Oscillator oscillator(const SloshSpec& slosh, double acceleration) {
+  if (const auto* pendulum = std::get_if<PendulumSpec>(&slosh)) {
+    return {pendulum->name,
+            fmt::format("pendulum `{}`", pendulum->name),
+            period_of(*pendulum, acceleration),
+            "no thruster burns at t = 0",
+            pendulum->span(),
+            pendulum->damping / pendulum->mass};
+  }
+  const auto& particle = std::get<ParticleSpec>(slosh);
+  return {particle.name,
+          fmt::format("particle `{}`", particle.name),
+          period_of(particle),
+          "it has no stiffness",
+          particle.span_of("stiffness"),
+          particle.damping / particle.mass};
+}
+
 }  // namespace
 
 Kind<SloshSpec> slosh() {
@@ -44,6 +64,10 @@ SloshCommon common(const SloshSpec& slosh) {
   return std::visit([](const auto& s) { return SloshCommon{s.name, s.tank, s.mass, s}; }, slosh);
 }
 
+const std::string& name_of(const SloshSpec& slosh) { return common(slosh).name; }
+
+const Written& written(const SloshSpec& slosh) { return common(slosh).written; }
+
 double slosh_mass_in(const std::string& tank, const std::vector<SloshSpec>& slosh) {
   double sum = 0.0;
   for (const SloshSpec& each : slosh) {
@@ -52,14 +76,14 @@ double slosh_mass_in(const std::string& tank, const std::vector<SloshSpec>& slos
   return sum;
 }
 
-void check(const SloshSpec& slosh, const std::vector<TankSpec>& tanks, const Names& names,
-           Diagnostics& diagnostics) {
+void check(const SloshSpec& slosh, const Context& context, Diagnostics& diagnostics) {
+  const Names& names = context.names;
   const SloshCommon& own = common(slosh);
   const PendulumSpec* pendulum = std::get_if<PendulumSpec>(&slosh);
   const std::string who =
       fmt::format("{} `{}`", pendulum != nullptr ? "pendulum" : "particle", own.name);
   if (own.tank) check_tank(*own.tank, own.written.span_of("tank"), who, names, diagnostics);
-  const TankSpec* tank = find_tank(tanks, own.tank);
+  const TankSpec* tank = find_tank(context.vehicle.tanks, own.tank);
   const auto mount = std::visit([](const auto& s) { return s.mount; }, slosh);
   if (mount) check_mount(*mount, own.written.span_of("mount"), who, names, diagnostics);
   if (tank != nullptr) check_place(slosh, *tank, who, diagnostics);
@@ -84,9 +108,23 @@ void check_content(const TankSpec& tank, const std::vector<SloshSpec>& slosh,
   }
 }
 
-void lower(const SloshSpec& slosh, const std::vector<TankSpec>& tanks, ModelBuilder& builder) {
-  const TankSpec* tank = find_tank(tanks, common(slosh).tank);
+void lower(const SloshSpec& slosh, const Vehicle& vehicle, ModelBuilder& builder) {
+  const TankSpec* tank = find_tank(vehicle.tanks, common(slosh).tank);
   std::visit([&](const auto& s) { lower(s, tank, builder); }, slosh);
+}
+
+Coordinates coordinates_of(const SloshSpec& slosh) {
+  return {std::holds_alternative<PendulumSpec>(slosh) ? 2 : 1, written(slosh).span_of("name")};
+}
+
+double mass_of(const SloshSpec& slosh) { return common(slosh).tank ? 0.0 : common(slosh).mass; }
+
+std::vector<Oscillator> oscillators_of(const std::vector<SloshSpec>& slosh,
+                                       const Vehicle& vehicle) {
+  const double acceleration = thrust_at_start(vehicle.thrusters).norm() / total_mass(vehicle);
+  std::vector<Oscillator> all;
+  for (const SloshSpec& each : slosh) all.push_back(oscillator(each, acceleration));
+  return all;
 }
 
 }  // namespace twincraft

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "compiler/components/physical.h"
+#include "compiler/components/vehicle.h"
 #include "compiler/ir/number.h"
 #include "compiler/ir/rotation.h"
 
@@ -133,9 +134,9 @@ Vector3d position_with(const TankSpec* tank, const std::optional<Vector3d>& posi
   return position.value_or(tank != nullptr ? tank->position : Vector3d::Zero());
 }
 
-void check(const TankSpec& tank, const Names& names, Diagnostics& diagnostics) {
+void check(const TankSpec& tank, const Context& context, Diagnostics& diagnostics) {
   const std::string who = fmt::format("tank `{}`", tank.name);
-  check_mount(tank.mount, tank.span_of("mount"), who, names, diagnostics);
+  check_mount(tank.mount, tank.span_of("mount"), who, context.names, diagnostics);
   check_mass(tank.propellant, tank.span_of("propellant"), who, diagnostics);
   if (!tank.density) return;
   const double most = *tank.density * volume(tank.shape);
@@ -148,10 +149,22 @@ void check(const TankSpec& tank, const Names& names, Diagnostics& diagnostics) {
       .with_note(tank.span_of("density"), fmt::format("{} kg/m3", shortest(*tank.density)));
 }
 
-void lower(const TankSpec& spec, double slosh, const Schedule& mass_flow, ModelBuilder& builder) {
+void check_together(const std::vector<TankSpec>& tanks, const Context& context,
+                    Diagnostics& diagnostics) {
+  if (diagnostics.has_errors()) return;
+  for (const TankSpec& tank : tanks) {
+    check_content(tank, context.vehicle.slosh, diagnostics);
+    check_depletion(tank, context.vehicle.thrusters, context.duration, diagnostics);
+  }
+}
+
+double mass_of(const TankSpec& tank) { return tank.propellant; }
+
+void lower(const TankSpec& spec, const Vehicle& vehicle, ModelBuilder& builder) {
   const int tank =
-      builder.add_tank({spec.name, spec.propellant, mass_flow, spec.depletion.momentum});
-  const double bulk = spec.propellant - slosh;
+      builder.add_tank({spec.name, spec.propellant, mass_flow_of(vehicle.thrusters, spec.name),
+                        spec.depletion.momentum});
+  const double bulk = spec.propellant - slosh_mass_in(spec.name, vehicle.slosh);
   if (!(bulk > kMujocoMinimum)) return;  // all of it sloshes
   // A body of its own, so that nothing else of the mount changes when it drains.
   const Mount mount = builder.add_fixed_body(builder.find_mount(spec.mount), spec.name,

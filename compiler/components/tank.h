@@ -6,9 +6,7 @@
 
 #include <optional>
 
-#include "compiler/components/model_builder.h"
-#include "compiler/components/names.h"
-#include "compiler/schema/table.h"
+#include "compiler/components/section.h"
 
 namespace twincraft {
 
@@ -54,10 +52,15 @@ std::string mount_with(const TankSpec* tank, const std::optional<std::string>& m
 Vector3d position_with(const TankSpec* tank, const std::optional<Vector3d>& position);  // [m]
 
 /// Mount, and no more propellant than the tank holds.
-void check(const TankSpec& tank, const Names& names, Diagnostics& diagnostics);
+void check(const TankSpec& tank, const Context& context, Diagnostics& diagnostics);
 
-/// @param slosh      [kg] of what moves in the tank: not in the bulk
-/// @param mass_flow  [kg/s] of all thrusters that draw from it
-void lower(const TankSpec& tank, double slosh, const Schedule& mass_flow, ModelBuilder& builder);
+/// What is drawn from the tanks, and what sloshes in them, is there; not asked after an error.
+void check_together(const std::vector<TankSpec>& tanks, const Context& context,
+                    Diagnostics& diagnostics);
+
+/// The bulk: what does not slosh. The thrusters that draw from it make its flow.
+void lower(const TankSpec& tank, const Vehicle& vehicle, ModelBuilder& builder);
+
+double mass_of(const TankSpec& tank);
 
 }  // namespace twincraft

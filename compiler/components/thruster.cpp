@@ -78,11 +78,12 @@ Vector3d thrust_at_start(const std::vector<ThrusterSpec>& thrusters) {
   return sum;
 }
 
-void check(const ThrusterSpec& thruster, const Names& names, Diagnostics& diagnostics) {
+void check(const ThrusterSpec& thruster, const Context& context, Diagnostics& diagnostics) {
   const std::string who = fmt::format("thruster `{}`", thruster.name);
-  check_mount(thruster.mount, thruster.span_of("mount"), who, names, diagnostics);
+  check_mount(thruster.mount, thruster.span_of("mount"), who, context.names, diagnostics);
+  check_acts(thruster.during, thruster.span_of("during"), who, context, diagnostics);
   if (!thruster.tank) return;
-  check_tank(*thruster.tank, thruster.span_of("tank"), who, names, diagnostics);
+  check_tank(*thruster.tank, thruster.span_of("tank"), who, context.names, diagnostics);
   if (thruster.isp) return;
   diagnostics
       .error(Code::kMissingKey, thruster.span(),
@@ -110,7 +111,7 @@ void check_depletion(const TankSpec& spec, const std::vector<ThrusterSpec>& thru
   }
 }
 
-void lower(const ThrusterSpec& spec, ModelBuilder& builder) {
+void lower(const ThrusterSpec& spec, const Vehicle&, ModelBuilder& builder) {
   Load load;
   load.name = spec.name;
   load.r_FL_L = spec.position;

@@ -32,14 +32,14 @@ Schedule mass_flow_of(const std::vector<ThrusterSpec>& thrusters, const std::str
 /// Force of all thrusters at t = 0 [N], mount axes.
 Vector3d thrust_at_start(const std::vector<ThrusterSpec>& thrusters);
 
-/// Mount and tank exist; a tank needs `isp`.
-void check(const ThrusterSpec& thruster, const Names& names, Diagnostics& diagnostics);
+/// Mount and tank exist; a tank needs `isp`; it burns in the run.
+void check(const ThrusterSpec& thruster, const Context& context, Diagnostics& diagnostics);
 
 /// What burns until the end of the run [s] must be in the tank.
 void check_depletion(const TankSpec& tank, const std::vector<ThrusterSpec>& thrusters,
                      double duration, Diagnostics& diagnostics);
 
 /// The force, and where the flow leaves the vehicle. @pre the tanks were lowered
-void lower(const ThrusterSpec& thruster, ModelBuilder& builder);
+void lower(const ThrusterSpec& thruster, const Vehicle& vehicle, ModelBuilder& builder);
 
 }  // namespace twincraft

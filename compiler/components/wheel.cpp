@@ -43,16 +43,16 @@ const Table<WheelSpec>& wheel_table() {
   return table;
 }
 
-void check(const WheelSpec& wheel, const Names& names, Diagnostics& diagnostics) {
+void check(const WheelSpec& wheel, const Context& context, Diagnostics& diagnostics) {
   const std::string who = fmt::format("wheel `{}`", wheel.name);
-  check_mount(wheel.mount, wheel.span_of("mount"), who, names, diagnostics);
+  check_mount(wheel.mount, wheel.span_of("mount"), who, context.names, diagnostics);
   if (wheel.mass > 0.0) check_mass(wheel.mass, wheel.span_of("mass"), who, diagnostics);
   // Principal axes directly: forming the tensor about a slanted axis would add rounding.
   const Vector3d moments(wheel.transverse_inertia, wheel.transverse_inertia, wheel.spin_inertia);
   check_inertia(moments.asDiagonal(), wheel.span_of("spin_inertia"), who, diagnostics);
 }
 
-void lower(const WheelSpec& wheel, ModelBuilder& builder) {
+void lower(const WheelSpec& wheel, const Vehicle&, ModelBuilder& builder) {
   Rotor rotor;
   rotor.name = wheel.name;
   rotor.axis_L = wheel.axis;
@@ -62,5 +62,9 @@ void lower(const WheelSpec& wheel, ModelBuilder& builder) {
   const int index = builder.add_wheel(builder.find_mount(wheel.mount), rotor, element);
   builder.add_coordinate(Coordinate::Kind::kWheel, wheel.name, index, 0.0, wheel.speed);
 }
+
+Coordinates coordinates_of(const WheelSpec& wheel) { return {1, wheel.span_of("name")}; }
+
+double mass_of(const WheelSpec& wheel) { return wheel.mass; }
 
 }  // namespace twincraft

@@ -5,9 +5,7 @@
 // own on the mount, at its position. Tested by tests/compiler/wheel_test.cpp.
 #pragma once
 
-#include "compiler/components/model_builder.h"
-#include "compiler/components/names.h"
-#include "compiler/schema/table.h"
+#include "compiler/components/section.h"
 
 namespace twincraft {
 
@@ -26,8 +24,11 @@ struct WheelSpec : Written {
 const Table<WheelSpec>& wheel_table();
 
 /// The mount must carry it and the tensor must be some body's: Js <= 2 Jt.
-void check(const WheelSpec& wheel, const Names& names, Diagnostics& diagnostics);
+void check(const WheelSpec& wheel, const Context& context, Diagnostics& diagnostics);
 
-void lower(const WheelSpec& wheel, ModelBuilder& builder);
+void lower(const WheelSpec& wheel, const Vehicle& vehicle, ModelBuilder& builder);
+
+Coordinates coordinates_of(const WheelSpec& wheel);
+double mass_of(const WheelSpec& wheel);
 
 }  // namespace twincraft

@@ -1,5 +1,4 @@
-// From spec to model: every component adds itself to both halves, in the order of the language, but
-// for bodies, which come first because others can be mounted on them.
+// From spec to model: the vehicle adds itself to both halves, then come the sections of the run.
 // Tested by tests/compiler/spec_test.cpp.
 #include <fmt/format.h>
 
@@ -15,18 +14,7 @@ namespace {
 
 Model lower_vehicle(const Spec& spec) {
   ModelBuilder builder(lower(spec.engines));
-  lower(spec.hub, builder);
-  for (const BodySpec* body : parents_first(spec.bodies)) lower(*body, builder);
-  for (const WheelSpec& wheel : spec.wheels) lower(wheel, builder);
-  for (const PanelSpec& panel : spec.panels) lower(panel, builder);
-  for (const BodySpec& body : spec.bodies) lower_coordinate(body, builder);
-  for (const TankSpec& tank : spec.tanks) {
-    lower(tank, slosh_mass_in(tank.name, spec.slosh), mass_flow_of(spec.thrusters, tank.name),
-          builder);
-  }
-  for (const SloshSpec& slosh : spec.slosh) lower(slosh, spec.tanks, builder);
-  for (const ThrusterSpec& thruster : spec.thrusters) lower(thruster, builder);
-  for (const LoadSpec& load : spec.loads) lower(load, builder);
+  lower(spec, builder);
   return std::move(builder).build();
 }
 

@@ -19,10 +19,12 @@ void refuse(Span span, const std::string& message, Diagnostics& diagnostics) {
   diagnostics.error(Code::kPointMass, span, message).with_hint(kHint);
 }
 
-void refuse_all(const Spec& spec, const char* section, Diagnostics& diagnostics) {
-  const Node* list = spec.node->find(section);
-  if (list == nullptr || list->items.empty()) return;
-  refuse(list->items.front().span, fmt::format("a point mass carries no {}", section), diagnostics);
+void refuse_components(const Spec& spec, Diagnostics& diagnostics) {
+  for_each_section(spec, [&](const auto& members, const SectionName& section) {
+    if (members.empty() || fits_point_mass(members.front())) return;
+    refuse(written(members.front()).span(), fmt::format("a point mass carries no {}", section.key),
+           diagnostics);
+  });
 }
 
 void check_start(const InitialSpec& initial, Diagnostics& diagnostics) {
@@ -50,9 +52,7 @@ void check_stored_states(const Spec& spec, Diagnostics& diagnostics) {
 
 void check_point_mass(const Spec& spec, Diagnostics& diagnostics) {
   if (spec.simulation.mode != SimulationMode::kTranslation) return;
-  for (const char* section : {"wheels", "panels", "bodies", "tanks", "slosh", "thrusters"}) {
-    refuse_all(spec, section, diagnostics);
-  }
+  refuse_components(spec, diagnostics);
   for (const LoadSpec& load : spec.loads) {
     if (is_zero(load.torque)) continue;
     refuse(load.span_of("torque"),

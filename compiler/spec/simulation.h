@@ -8,8 +8,8 @@
 #include <variant>
 #include <vector>
 
+#include "compiler/components/section.h"
 #include "compiler/ir/model.h"
-#include "compiler/schema/table.h"
 
 namespace twincraft {
 
@@ -28,16 +28,6 @@ struct StepRule : Written {
 struct AbsoluteRelative : Written {
   double absolute = 0.0;  // unit of the block
   double relative = 0.0;
-};
-
-/// Something a step rule can follow.
-struct Oscillator {
-  std::string name;
-  std::string who;               // for messages: "panel `wing`"
-  std::optional<double> period;  // [s]
-  std::string lack;              // why there is none: "no hinge of it has stiffness"
-  Span span;                     // what to point at then
-  double decay = 0.0;            // [1/s] no damper of it decays faster
 };
 
 /// A plain number is both parts.

@@ -24,99 +24,7 @@ constexpr const char* kExtendsDoc =
     "a file `.twincraft`. At most 16 files follow one another. The digest in a report is that of "
     "the texts of all files, the compiled one first.";
 
-Names named_components(const Spec& spec, Diagnostics& diagnostics) {
-  Names names;
-  const auto add = [&](const auto& components, const char* what) {
-    for (const auto& component : components) {
-      names.add(component.name, what, component.span_of("name"), diagnostics);
-    }
-  };
-  add(spec.wheels, "wheel");
-  add(spec.panels, "panel");
-  add(spec.bodies, "body");
-  add(spec.tanks, "tank");
-  for (const SloshSpec& slosh : spec.slosh) {
-    const SloshCommon& own = common(slosh);
-    names.add(own.name, "slosh mass", own.written.span_of("name"), diagnostics);
-  }
-  add(spec.thrusters, "thruster");
-  add(spec.loads, "load");
-  return names;
-}
-
-/// Joints and wheels, summed up to the first component with which they are too many.
-struct Size {
-  int coordinates = 0;
-  std::optional<Span> too_many_at = {};
-
-  void add(int count, Span span) {
-    if (too_many_at) return;
-    coordinates += count;
-    if (coordinates > kMostCoordinates) too_many_at = span;
-  }
-};
-
-Size size_of(const Spec& spec) {
-  Size size;
-  for (const WheelSpec& wheel : spec.wheels) size.add(1, wheel.span_of("name"));
-  for (const PanelSpec& panel : spec.panels) size.add(panel.segments, panel.span_of("segments"));
-  for (const BodySpec& body : spec.bodies) size.add(1, body.span_of("name"));
-  for (const SloshSpec& slosh : spec.slosh)
-    size.add(std::holds_alternative<PendulumSpec>(slosh) ? 2 : 1,
-             common(slosh).written.span_of("name"));
-  return size;
-}
-
-/// What is drawn from the tanks, and what sloshes in them, is there.
-void check_tanks(const Spec& spec, Diagnostics& diagnostics) {
-  for (const TankSpec& tank : spec.tanks) {
-    check_content(tank, spec.slosh, diagnostics);
-    check_depletion(tank, spec.thrusters, spec.simulation.duration, diagnostics);
-  }
-}
-
-/// Of the vehicle at t = 0 [kg].
-double total_mass(const Spec& spec) {
-  double sum = spec.hub.mass;
-  for (const WheelSpec& wheel : spec.wheels) sum += wheel.mass;
-  for (const PanelSpec& panel : spec.panels) sum += panel.mass;
-  for (const BodySpec& body : spec.bodies) sum += body.mass;
-  for (const TankSpec& tank : spec.tanks) sum += tank.propellant;
-  for (const SloshSpec& slosh : spec.slosh) sum += common(slosh).tank ? 0.0 : common(slosh).mass;
-  return sum;
-}
-
-Oscillator oscillator(const SloshSpec& slosh, double acceleration) {
-  if (const auto* pendulum = std::get_if<PendulumSpec>(&slosh)) {
-    return {pendulum->name,
-            fmt::format("pendulum `{}`", pendulum->name),
-            period_of(*pendulum, acceleration),
-            "no thruster burns at t = 0",
-            pendulum->span(),
-            pendulum->damping / pendulum->mass};
-  }
-  const auto& particle = std::get<ParticleSpec>(slosh);
-  return {particle.name,
-          fmt::format("particle `{}`", particle.name),
-          period_of(particle),
-          "it has no stiffness",
-          particle.span_of("stiffness"),
-          particle.damping / particle.mass};
-}
-
 }  // namespace
-
-std::vector<Oscillator> oscillators(const Spec& spec) {
-  std::vector<Oscillator> all;
-  for (const PanelSpec& panel : spec.panels) {
-    all.push_back({panel.name, fmt::format("panel `{}`", panel.name), segment_period(panel),
-                   "no hinge of it has stiffness", panel.span_of("stiffness"),
-                   fastest_decay(panel)});
-  }
-  const double acceleration = thrust_at_start(spec.thrusters).norm() / total_mass(spec);
-  for (const SloshSpec& slosh : spec.slosh) all.push_back(oscillator(slosh, acceleration));
-  return all;
-}
 
 bool names_stored(const Spec& spec) {
   return std::ranges::find(spec.references, ReferenceKind::kStored) != spec.references.end();
@@ -143,17 +51,12 @@ const Table<Spec>& spec_table() {
                    "this spec's own are put in."),
           required("name", &Spec::name, name(), "Names the emitted files."),
           optional("description", &Spec::description, text(), "Free text."),
-          required("hub", &Spec::hub, object(hub_table()), "The body that carries the rest."),
-          optional("wheels", &Spec::wheels, list_of(object(wheel_table())), "Reaction wheels."),
-          optional("panels", &Spec::panels, list_of(object(panel_table())), "Solar arrays."),
-          optional("bodies", &Spec::bodies, list_of(object(body_table())),
-                   "Rigid bodies on joints, in chains and branches."),
-          optional("tanks", &Spec::tanks, list_of(object(tank_table())), "Propellant tanks."),
-          optional("slosh", &Spec::slosh, list_of(slosh()), "Moving propellant."),
-          optional("thrusters", &Spec::thrusters, list_of(object(thruster_table())),
-                   "Thrust, and what it takes out of the tanks."),
-          optional("loads", &Spec::loads, list_of(object(load_table())),
-                   "External forces and torques."),
+          required("hub", static_cast<HubSpec Spec::*>(&Spec::hub), object(hub_table()),
+                   "The body that carries the rest."),
+#define TWINCRAFT_SECTION(Struct, key, noun, kind, doc) \
+  optional(#key, static_cast<std::vector<Struct> Spec::*>(&Spec::key), list_of(kind), doc),
+#include "compiler/components/sections.def"
+#undef TWINCRAFT_SECTION
           optional("environment", &Spec::environment, object(environment_table()),
                    "Default: deep space."),
           optional("initial", &Spec::initial, object(initial_table()),
@@ -178,22 +81,6 @@ const Table<Spec>& spec_table() {
   return table;
 }
 
-namespace {
-
-/// Of a thruster or a load; the half-open run is [0, duration).
-template <class Component>
-void check_acts(const Component& component, std::string_view kind, double duration,
-                Diagnostics& diagnostics) {
-  if (!component.during) return;
-  for (const Schedule::Interval& interval : *component.during)
-    if (interval.start < duration && interval.end > 0.0) return;
-  diagnostics.warning(Code::kNeverActs, component.span_of("during"),
-                      fmt::format("{} `{}` does not act in the run, which is from 0 to {} s", kind,
-                                  component.name, shortest(duration)));
-}
-
-}  // namespace
-
 bool check_format(const Node& root, Diagnostics& diagnostics) {
   const Node* format = root.find("format");
   if (format == nullptr || !format->is_scalar() || format->scalar == kFormat) return true;
@@ -205,7 +92,7 @@ bool check_format(const Node& root, Diagnostics& diagnostics) {
 }
 
 void check(const Spec& spec, Diagnostics& diagnostics) {
-  const Size size = size_of(spec);
+  const Size size = size_of(spec, kMostCoordinates);
   if (size.too_many_at) {
     diagnostics
         .error(
@@ -214,17 +101,7 @@ void check(const Spec& spec, Diagnostics& diagnostics) {
         .with_hint("check the numbers of `segments`");
     return;
   }
-  const Names names = named_components(spec, diagnostics);
-  check(spec.hub, diagnostics);
-  for (const WheelSpec& wheel : spec.wheels) check(wheel, names, diagnostics);
-  for (const PanelSpec& panel : spec.panels) check(panel, names, diagnostics);
-  for (const BodySpec& body : spec.bodies) check(body, names, diagnostics);
-  check_circles(spec.bodies, diagnostics);
-  for (const TankSpec& tank : spec.tanks) check(tank, names, diagnostics);
-  for (const SloshSpec& slosh : spec.slosh) check(slosh, spec.tanks, names, diagnostics);
-  for (const ThrusterSpec& thruster : spec.thrusters) check(thruster, names, diagnostics);
-  for (const LoadSpec& load : spec.loads) check(load, names, diagnostics);
-  if (!diagnostics.has_errors()) check_tanks(spec, diagnostics);
+  check(spec, spec.simulation.duration, diagnostics);
   check(spec.initial, spec.environment, diagnostics);
   check(spec.simulation, oscillators(spec), size.coordinates, diagnostics);
   check(spec.engines, spec.environment, diagnostics);
@@ -232,10 +109,6 @@ void check(const Spec& spec, Diagnostics& diagnostics) {
   if (spec.stored)
     check(*spec.stored, names_stored(spec), spec.environment, spec.simulation.duration,
           diagnostics);
-  for (const ThrusterSpec& thruster : spec.thrusters)
-    check_acts(thruster, "thruster", spec.simulation.duration, diagnostics);
-  for (const LoadSpec& load : spec.loads)
-    check_acts(load, "load", spec.simulation.duration, diagnostics);
   check_point_mass(spec, diagnostics);
   if (spec.study) members_of(*spec.study, diagnostics);
 }

@@ -1,5 +1,5 @@
-// The whole spec as C++: one struct per section, filled by its field table. The file a component
-// lives in declares its struct; this one puts them together.
+// The whole spec as C++: a vehicle and the sections of its run, a struct each, filled by its field
+// table. The file a section lives in declares its struct; this one puts them together.
 // Tested by tests/compiler/spec_test.cpp.
 #pragma once
 
@@ -7,14 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "compiler/components/body.h"
-#include "compiler/components/hub.h"
-#include "compiler/components/load.h"
-#include "compiler/components/panel.h"
-#include "compiler/components/slosh.h"
-#include "compiler/components/tank.h"
-#include "compiler/components/thruster.h"
-#include "compiler/components/wheel.h"
+#include "compiler/components/vehicle.h"
 #include "compiler/spec/agreement.h"
 #include "compiler/spec/engines.h"
 #include "compiler/spec/environment.h"
@@ -25,21 +18,13 @@
 
 namespace twincraft {
 
-struct Spec : Written {
+struct Spec : Written, Vehicle {
   // Followed before a spec is read, so never found here; for the schema and the reference.
   std::optional<std::string> extends;
   std::optional<std::vector<std::string>> drop;
   std::string format;
   std::string name;
   std::string description;
-  HubSpec hub;
-  std::vector<WheelSpec> wheels;
-  std::vector<PanelSpec> panels;
-  std::vector<BodySpec> bodies;
-  std::vector<TankSpec> tanks;
-  std::vector<SloshSpec> slosh;
-  std::vector<ThrusterSpec> thrusters;
-  std::vector<LoadSpec> loads;
   EnvironmentSpec environment;
   InitialSpec initial;
   SimulationSpec simulation;
@@ -60,10 +45,7 @@ bool check_format(const Node& root, Diagnostics& diagnostics);
 /// Whether the references make use of the section `stored`.
 bool names_stored(const Spec& spec);
 
-/// Everything that a step rule can follow.
-std::vector<Oscillator> oscillators(const Spec& spec);
-
-/// Unique names, references between components, and every component's own check.
+/// Every component's own check, that of every section of the run, and what must hold between them.
 void check(const Spec& spec, Diagnostics& diagnostics);
 
 /// A point mass (`simulation.mode: translation`) carries and turns nothing. Part of check().
