@@ -2,13 +2,14 @@
 #include "compiler/spec/engines.h"
 
 #include "compiler/components/physical.h"
+#include "compiler/ir/engine_kind.h"
 
 namespace twincraft {
 namespace {
 
 const Table<BsmSpec>& bsm_table() {
   static const Table<BsmSpec> table{
-      "bsm",
+      std::string(kBsmKey),
       "The analytic back-substitution engine.",
       {
           optional(
@@ -35,7 +36,7 @@ const Table<BsmSpec>& bsm_table() {
 
 const Table<MujocoSpec>& mujoco_table() {
   static const Table<MujocoSpec> table{
-      "mujoco",
+      std::string(kMujocoKey),
       "The MuJoCo engine.",
       {
           optional("frame", &MujocoSpec::frame,
@@ -81,8 +82,10 @@ const Table<EnginesSpec>& engines_table() {
       "engines",
       "Controls of the comparison; the defaults make both engines the same machine to rounding.",
       {
-          optional("bsm", &EnginesSpec::bsm, object(bsm_table()), "The analytic engine."),
-          optional("mujoco", &EnginesSpec::mujoco, object(mujoco_table()), "MuJoCo."),
+          optional(std::string(kBsmKey), &EnginesSpec::bsm, object(bsm_table()),
+                   "The analytic engine."),
+          optional(std::string(kMujocoKey), &EnginesSpec::mujoco, object(mujoco_table()),
+                   "MuJoCo."),
       }};
   return table;
 }

@@ -44,7 +44,7 @@ class BsmEngine final : public Engine {
     BsmEngine::hold(inputs_at(model, 0.0));
   }
 
-  std::string_view name() const override { return "bsm"; }
+  std::string_view name() const override { return kBsmKey; }
   const StateLayout& layout() const override { return layout_; }
 
   Eigen::VectorXd initial_state() const override { return pack(initial_, layout_); }

@@ -17,7 +17,7 @@ class BsmPointMass final : public PointMassEngine {
   explicit BsmPointMass(const Model& model)
       : PointMassEngine(model, model.gravity.bsm), mass_(mass_of(model)) {}
 
-  std::string_view name() const override { return "bsm"; }
+  std::string_view name() const override { return kBsmKey; }
 
   Eigen::MatrixXd mass_matrix(std::span<const double>) override {
     return mass_ * Matrix3d::Identity();

@@ -12,11 +12,10 @@
 #include <cmath>
 #include <utility>
 
-#include "runtime/bsm/engine.h"
 #include "runtime/compare/held_comparison.h"
 #include "runtime/compare/random_state.h"
 #include "runtime/compare/rounding.h"
-#include "runtime/mujoco/engine.h"
+#include "runtime/simulate/engines.h"
 
 namespace twincraft {
 namespace {
@@ -274,8 +273,8 @@ ProofReport prove(const Bundle& bundle, const ProofProgress& progress) {
   report.refusal = bundle.model.mujoco_refusal;
   if (!report.refusal.empty()) return report;
   try {
-    const std::unique_ptr<Engine> bsm = make_bsm_engine(bundle.model);
-    const std::unique_ptr<Engine> mujoco = make_mujoco_engine(bundle.model, bundle.text(kMjcf));
+    const std::unique_ptr<Engine> bsm = make_engine(EngineKind::kBsm, bundle);
+    const std::unique_ptr<Engine> mujoco = make_engine(EngineKind::kMujoco, bundle);
     return prove(bundle.model, *bsm, *mujoco, progress);
   } catch (const NumericalFailure& failure) {
     report.refusal = failure.what();

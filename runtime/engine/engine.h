@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "compiler/ir/engine_kind.h"
 #include "compiler/ir/inputs.h"
 #include "runtime/engine/held.h"
 #include "runtime/engine/observation.h"
@@ -23,7 +24,7 @@ class Engine {
  public:
   virtual ~Engine() = default;
 
-  virtual std::string_view name() const = 0;  // "bsm", "mujoco"
+  virtual std::string_view name() const = 0;  // the key of its EngineName
   virtual const StateLayout& layout() const = 0;
 
   /// The state of the model at t = 0.

@@ -68,7 +68,7 @@ class MujocoEngine final : public Engine {
  public:
   MujocoEngine(const Model& model, const std::string& mjcf);
 
-  std::string_view name() const override { return "mujoco"; }
+  std::string_view name() const override { return kMujocoKey; }
   const StateLayout& layout() const override { return exchange_.layout(); }
   Eigen::VectorXd initial_state() const override { return pack(initial_, layout()); }
   void hold(const Inputs& inputs) override;

@@ -28,7 +28,7 @@ class MujocoPointMass final : public PointMassEngine {
     model_->nsite = 0;
   }
 
-  std::string_view name() const override { return "mujoco"; }
+  std::string_view name() const override { return kMujocoKey; }
 
   Eigen::MatrixXd mass_matrix(std::span<const double>) override {
     place(Vector3d::Zero(), Vector3d::Zero());

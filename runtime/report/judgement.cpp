@@ -18,7 +18,7 @@ std::string clause_of(const JudgedFigure& figure) {
       return "the engines disagree";
     case Of::kConservation:
       return fmt::format("the {} of {} exceeds its tolerance", words_of(figure.key, {}).label,
-                         figure.engine == "bsm" ? "BSM" : "MuJoCo");
+                         engine_label(figure.engine));
     case Of::kReference:
       break;
   }

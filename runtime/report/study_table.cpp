@@ -18,8 +18,6 @@ namespace {
 /// A study of a million members is a file, not a page.
 constexpr std::size_t kShownMembers = 200;
 
-std::string engine_label(std::string_view engine) { return engine == "bsm" ? "BSM" : "MuJoCo"; }
-
 /// `step` of `simulation.step`.
 std::string last_step(const std::string& path) { return path.substr(path.rfind('.') + 1); }
 
@@ -130,22 +128,24 @@ std::vector<Column> columns_of(const Report& report) {
                        return metric_cell(member, find_metric(member.result, "com_position_m"));
                      }});
   if (report.study->compare)
-    for (const char* engine : {"bsm", "mujoco"})
+    for (const EngineName& engine : kEngines)
       columns.push_back(
-          {engine_label(engine) + " by itself",
-           [engine](const ReportedMember& member) { return against_cell(member, engine); }});
+          {fmt::format("{} by itself", engine.label),
+           [key = engine.key](const ReportedMember& member) { return against_cell(member, key); }});
   if (report.summary()->is_judged()) columns.push_back({"worst, of tolerance", worst_cell});
   const std::vector<ReferenceRun>& references = report.members.front().result.references;
   if (!references.empty())
-    for (const char* engine : {"bsm", "mujoco"})
-      columns.push_back(
-          {engine_label(engine) + " " + references.front().name,
-           [engine](const ReportedMember& member) { return reference_cell(member, engine); }});
-  if (report.members.front().result.timing) {
-    for (const char* engine : {"bsm", "mujoco"})
-      columns.push_back({engine_label(engine) + " step", [engine](const ReportedMember& member) {
-                           return step_cell(member.result, engine);
+    for (const EngineName& engine : kEngines)
+      columns.push_back({fmt::format("{} {}", engine.label, references.front().name),
+                         [key = engine.key](const ReportedMember& member) {
+                           return reference_cell(member, key);
                          }});
+  if (report.members.front().result.timing) {
+    for (const EngineName& engine : kEngines)
+      columns.push_back(
+          {fmt::format("{} step", engine.label), [key = engine.key](const ReportedMember& member) {
+             return step_cell(member.result, key);
+           }});
     columns.push_back(
         {"ratio", [](const ReportedMember& member) { return ratio_cell(member.result); }});
   }

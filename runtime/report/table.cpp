@@ -71,8 +71,6 @@ std::string agreement_block(const ReportedMember& member, bool colour) {
 
 namespace {
 
-std::string engine_label(std::string_view engine) { return engine == "bsm" ? "BSM" : "MuJoCo"; }
-
 /// Empty for a reference that judges nothing.
 std::string tolerance_words(const Deviation& deviation, std::string_view unit, bool holds,
                             bool colour) {
@@ -117,7 +115,8 @@ std::string conservation_block(const ReportedMember& member, bool colour) {
   if (result.conservation.empty()) return {};
   const auto any_judged = std::ranges::any_of(
       result.conservation, [](const Balance& balance) { return balance.tolerance.has_value(); });
-  std::string text = row("conservation", "BSM", "MuJoCo", any_judged ? "tolerance" : "");
+  std::string text = row("conservation", std::string(kEngines[0].label),
+                         std::string(kEngines[1].label), any_judged ? "tolerance" : "");
   for (const Balance& balance : result.conservation) {
     const auto cell = [&](const EngineRun& run) -> std::string {
       if (run.trajectory.samples.empty()) return "-";
@@ -146,8 +145,9 @@ std::string cost_block(const Member& result) {
   std::string text = row("cost", "per step", "whole run", "evaluations");
   const std::optional<double> ratio = result.timing->ratio();
   for (const EngineTiming& timing : result.timing->engines) {
-    const bool is_mujoco = timing.name == "mujoco";
-    const EngineRun& run = result.engines[is_mujoco ? 1 : 0];
+    const EngineKind kind = engine_of(timing.name);
+    const bool is_mujoco = kind == EngineKind::kMujoco;
+    const EngineRun& run = result.engines[static_cast<std::size_t>(kind)];
     text += row(indented(engine_label(timing.name)), duration(timing.per_step()),
                 duration(timing.median()), fmt::format("{}", run.trajectory.counts.evaluations),
                 is_mujoco && ratio ? fmt::format("{:.3g}x", 1.0 / *ratio) : scatter_words(timing));

@@ -11,8 +11,6 @@
 namespace twincraft {
 namespace {
 
-std::string engine_label(std::string_view engine) { return engine == "bsm" ? "BSM" : "MuJoCo"; }
-
 std::string paint(std::string_view text, fmt::color shade, bool colour) {
   return colour ? fmt::format(fmt::fg(shade), "{}", text) : std::string(text);
 }

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/simulate/engines.h"
 #include "runtime/study/twin_flight.h"
 
 namespace twincraft {
@@ -46,8 +47,9 @@ Timing time_member(const Bundle& bundle, const std::vector<EngineRun>& engines,
   std::vector<TimedEngine> contestants;
   for (const EngineRun& engine : engines)
     if (ran_through(engine))
-      contestants.push_back(bare_run(build_engine(engine.name, bundle, options.instructions),
-                                     bundle.model, options.stop));
+      contestants.push_back(
+          bare_run(make_engine(engine_of(engine.name), bundle, options.instructions), bundle.model,
+                   options.stop));
   return time_engines(contestants, options.trials, [&options](int done, int planned) {
     options.show(fmt::format("timing trial {} of {}", std::min(done + 1, planned), planned),
                  static_cast<double>(done) / planned);
@@ -106,9 +108,9 @@ Verdict Member::verdict() const {
 
 Member refused_member(const std::string& reason) {
   Member member;
-  for (const char* engine : {"bsm", "mujoco"}) {
+  for (const EngineName& engine : kEngines) {
     EngineRun run;
-    run.name = engine;
+    run.name = engine.key;
     run.status = Status::kSkipped;
     run.reason = reason;
     member.engines.push_back(std::move(run));

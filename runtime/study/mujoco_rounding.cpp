@@ -4,10 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "runtime/bsm/engine.h"
 #include "runtime/compare/random_state.h"
 #include "runtime/compare/rounding.h"
-#include "runtime/mujoco/engine.h"
+#include "runtime/simulate/engines.h"
 
 namespace twincraft {
 namespace {
@@ -31,8 +30,8 @@ class Prediction {
         subject_(subject),
         duration_(duration),
         feed_(bundle.model),
-        bsm_(make_bsm_engine(bundle.model)),
-        mujoco_(make_mujoco_engine(bundle.model, bundle.text(kMjcf))) {}
+        bsm_(make_engine(EngineKind::kBsm, bundle)),
+        mujoco_(make_engine(EngineKind::kMujoco, bundle)) {}
 
   double at(const Observation& seen) {
     const Eigen::VectorXd x = pack(seen, bsm_->layout());

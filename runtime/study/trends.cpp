@@ -218,7 +218,8 @@ std::vector<Trend> scaling_of(const StudyPlan& plan, const StudyPoints& points) 
   for (const std::string& path : plan.paths) {
     if (!plan.is_grid && path != plan.paths.front()) break;  // all paths make one group
     for (const Group& group : groups_along(path, plan, points))
-      for (const char* engine : {"bsm", "mujoco"}) add_trend(group, {"", engine, ""}, size, trends);
+      for (const EngineName& engine : kEngines)
+        add_trend(group, {"", std::string(engine.key), ""}, size, trends);
   }
   return trends;
 }

@@ -12,10 +12,9 @@
 #include <utility>
 
 #include "compiler/ir/number.h"
-#include "runtime/bsm/engine.h"
 #include "runtime/compare/pairing.h"
-#include "runtime/mujoco/engine.h"
 #include "runtime/reference/running.h"
+#include "runtime/simulate/engines.h"
 #include "runtime/study/resolve.h"
 
 namespace twincraft {
@@ -23,27 +22,25 @@ namespace {
 
 using Status = EngineRun::Status;
 
-bool is_bsm(std::string_view engine) { return engine == "bsm"; }
-
 /// Why an engine is not run at all; empty when it is.
-std::string skip_reason(std::string_view engine, const Model& model, const RunOptions& options) {
-  if (!(is_bsm(engine) ? options.bsm : options.mujoco)) return "not asked for";
+std::string skip_reason(EngineKind engine, const Model& model, const RunOptions& options) {
+  if (!(engine == EngineKind::kBsm ? options.bsm : options.mujoco)) return "not asked for";
   if (options.stopped()) return "interrupted";
-  return is_bsm(engine) ? "" : model.mujoco_refusal;
+  return refusal_of(engine, model);
 }
 
 /// One engine on its way, and what is made of its samples as they come.
 class EngineFlight : public SampleSink {
  public:
   /// @param next  gets every sample too
-  EngineFlight(std::string_view name, const Bundle& bundle, const Inspection& inspection,
+  EngineFlight(EngineKind engine, const Bundle& bundle, const Inspection& inspection,
                const RunOptions& options, SampleSink& next)
       : model_(bundle.model),
         keeps_samples_(options.keep_samples),
         next_(next),
         motion_(bundle.model, inspection.events) {
-    run_.name = name;
-    run_.reason = skip_reason(name, bundle.model, options);
+    run_.name = name_of(engine).key;
+    run_.reason = skip_reason(engine, bundle.model, options);
     if (!run_.reason.empty()) {
       run_.status = Status::kSkipped;
       return;
@@ -87,7 +84,7 @@ class EngineFlight : public SampleSink {
   /// An engine may not even be built.
   void take_off(const Bundle& bundle, const Inspection& inspection, const RunOptions& options) {
     try {
-      engine_ = build_engine(run_.name, bundle, options.instructions);
+      engine_ = make_engine(engine_of(run_.name), bundle, options.instructions);
       flight_ = std::make_unique<RecordedRun>(
           *engine_, model_, *this,
           PropagateOptions{.stop = options.stop, .instants = inspection.all()});
@@ -158,8 +155,8 @@ class TwinFlight {
         inspection_(plan_inspection(bundle.model)),
         options_(options),
         watch_(watch),
-        bsm_("bsm", bundle, inspection_, options, samples_[0]),
-        mujoco_("mujoco", bundle, inspection_, options, samples_[1]) {}
+        bsm_(EngineKind::kBsm, bundle, inspection_, options, samples_[0]),
+        mujoco_(EngineKind::kMujoco, bundle, inspection_, options, samples_[1]) {}
 
   void fly(Member& member) {
     bring_together();  // the initial states
@@ -224,13 +221,12 @@ class TwinFlight {
     const Trajectory& mujoco = member.engines[1].trajectory;
     if (!bsm.samples.empty() && !mujoco.samples.empty())
       member.comparison = agreement_.result(pairing_.same_times());
-    const std::vector<std::vector<Deviation>> of_bsm = bsm_.deviations();
-    const std::vector<std::vector<Deviation>> of_mujoco = mujoco_.deviations();
-    for (std::size_t i = 0; i < model_.references.size(); ++i) {
-      const std::string name(reference_name(model_.references[i]));
-      if (!bsm.samples.empty()) member.references.push_back({name, "bsm", of_bsm[i]});
-      if (!mujoco.samples.empty()) member.references.push_back({name, "mujoco", of_mujoco[i]});
-    }
+    const std::array deviations{bsm_.deviations(), mujoco_.deviations()};
+    for (std::size_t i = 0; i < model_.references.size(); ++i)
+      for (std::size_t engine = 0; engine < deviations.size(); ++engine)
+        if (const EngineRun& run = member.engines[engine]; !run.trajectory.samples.empty())
+          member.references.push_back(
+              {std::string(reference_name(model_.references[i])), run.name, deviations[engine][i]});
   }
 
   void show_progress() const {
@@ -239,7 +235,7 @@ class TwinFlight {
     if (both)
       options_.show("both", 0.5 * done);
     else
-      options_.show(bsm_.flies() ? "bsm" : "mujoco", done);
+      options_.show(bsm_.flies() ? kBsmKey : kMujocoKey, done);
   }
 
   const Model& model_;
@@ -253,12 +249,6 @@ class TwinFlight {
 };
 
 }  // namespace
-
-std::unique_ptr<Engine> build_engine(std::string_view name, const Bundle& bundle,
-                                     bsm::InstructionSet instructions) {
-  return is_bsm(name) ? make_bsm_engine(bundle.model, instructions)
-                      : make_mujoco_engine(bundle.model, bundle.text(kMjcf));
-}
 
 void fly_both(const Bundle& bundle, const RunOptions& options, MemberWatch* watch, Member& member) {
   TwinFlight(bundle, options, watch).fly(member);

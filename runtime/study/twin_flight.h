@@ -10,9 +10,6 @@
 
 namespace twincraft {
 
-std::unique_ptr<Engine> build_engine(std::string_view name, const Bundle& bundle,
-                                     bsm::InstructionSet instructions);
-
 /// Fills in the member's engines, comparison and references. Numerical failures are part of them.
 void fly_both(const Bundle& bundle, const RunOptions& options, MemberWatch* watch, Member& member);
 

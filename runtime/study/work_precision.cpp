@@ -74,7 +74,8 @@ std::vector<EngineWork> work_precision_of(const StudyPoints& points) {
   std::vector<EngineWork> engines;
   const std::vector<StudyPoint>& members = points.all();
   const std::size_t configurations = members.size() - 2;
-  for (const char* name : {"bsm", "mujoco"}) {
+  for (const EngineName& engine : kEngines) {
+    const std::string name(engine.key);
     const EngineEnd* truth = end_of(members[configurations], name);
     const EngineEnd* doubt = end_of(members[configurations + 1], name);
     if (truth == nullptr || doubt == nullptr) continue;

@@ -13,8 +13,6 @@ namespace {
 
 constexpr std::size_t kWrittenAtOnce = 1U << 18U;  // bytes of CSV
 
-constexpr std::array<const char*, 2> kEngines{"bsm", "mujoco"};
-
 }  // namespace
 
 MemberFiles::OfEngine::OfEngine(const Bundle& bundle, const std::filesystem::path& folder,
@@ -84,7 +82,7 @@ void MemberFiles::take(std::size_t engine, const Observation& sample, const Book
   std::unique_ptr<OfEngine>& files = engines_.at(engine);
   if (!files)
     files = std::make_unique<OfEngine>(bundle_, folder_, plan_.netcdf, provenance_,
-                                       kEngines.at(engine));
+                                       std::string(kEngines.at(engine).key));
   files->take(sample);
   if (series_) series_->take(engine, sample, books);
 }

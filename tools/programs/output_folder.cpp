@@ -4,19 +4,30 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <optional>
 #include <string>
 #include <system_error>
+#include <vector>
+
+#include "compiler/ir/engine_kind.h"
 
 namespace twincraft {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 4> kTrajectories{"bsm.csv", "mujoco.csv", "bsm.nc",
-                                                        "mujoco.nc"};
+/// Those that a member can have, in the order of the bits of OutputFolder::written_.
+const std::vector<std::string>& trajectories() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all;
+    for (const char* suffix : {".csv", ".nc"})
+      for (const EngineName& engine : kEngines)
+        all.push_back(fmt::format("{}{}", engine.key, suffix));
+    return all;
+  }();
+  return names;
+}
 
 /// A member's number of a name such as `0001`; nothing of any other name.
 std::optional<std::size_t> member_of(const std::string& name) {
@@ -54,7 +65,7 @@ fs::path OutputFolder::of_member(std::size_t index) const {
 }
 
 void OutputFolder::wrote(std::size_t member, std::string_view name) {
-  const auto file = std::ranges::find(kTrajectories, name) - kTrajectories.begin();
+  const auto file = std::ranges::find(trajectories(), name) - trajectories().begin();
   if (written_.size() <= member) written_.resize(member + 1, 0);
   written_[member] = static_cast<std::uint8_t>(written_[member] | 1U << file);
 }
@@ -64,8 +75,8 @@ bool OutputFolder::has_written(std::size_t member, std::size_t file) const {
 }
 
 void OutputFolder::clean(const fs::path& folder, std::size_t member) const {
-  for (std::size_t file = 0; file < kTrajectories.size(); ++file) {
-    const fs::path path = folder / kTrajectories.at(file);
+  for (std::size_t file = 0; file < trajectories().size(); ++file) {
+    const fs::path path = folder / trajectories().at(file);
     std::error_code ignored;
     if (!has_written(member, file) && is_plain_file(path)) fs::remove(path, ignored);
   }

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "compiler/diag/terminal.h"
+#include "compiler/ir/engine_kind.h"
 #include "runtime/report/words.h"
 
 namespace twincraft {
@@ -46,7 +47,7 @@ void ProgressBar::show(std::string_view phase, double fraction) {
     phase_begin_ = now;
   }
   if (now - begin_ < kQuiet || now - last_drawn_ < kInterval) return;
-  const bool simulates = phase == "bsm" || phase == "mujoco" || phase == "both";
+  const bool simulates = phase == kBsmKey || phase == kMujocoKey || phase == "both";
   write(fmt::format(
       "{}{}", kEraseLine,
       progress_line(phase, fraction, seconds(now - phase_begin_), simulates ? duration_ : 0.0)));

@@ -36,7 +36,7 @@ void describe_run(CLI::App& app, Options& options) {
       ->needs(app.get_option("--output"));
   app.add_option("--engine", options.engine, "bsm, mujoco or both (default)")
       ->type_name("ENGINE")
-      ->check(one_of({"bsm", "mujoco", "both"}));
+      ->check(one_of({std::string(kBsmKey), std::string(kMujocoKey), "both"}));
   app.add_option("--trials", options.trials, "timed trials per engine (default 5; 0: no timing)")
       ->type_name("N")
       ->check(CLI::Range(0, 1'000'000).description(""));
@@ -62,8 +62,8 @@ void describe(CLI::App& app, Options& options) {
 /// @param compares_members  a trajectory is needed again when another member has been flown
 RunOptions run_options(const Options& options, bool compares_members, ProgressBar& bar) {
   RunOptions run = watched_run(options, bar);
-  run.bsm = options.engine != "mujoco";
-  run.mujoco = options.engine != "bsm";
+  run.bsm = options.engine != kMujocoKey;
+  run.mujoco = options.engine != kBsmKey;
   run.trials = options.trials;
   run.keep_samples = compares_members;
   return run;
@@ -73,8 +73,9 @@ RunOptions run_options(const Options& options, bool compares_members, ProgressBa
 std::vector<std::string> first_files(const Options& options) {
   std::vector<std::string> files = report_files(options);
   if (files.empty()) return files;
-  for (const char* name : {"bsm.csv", "mujoco.csv"})
-    files.push_back((std::filesystem::path(options.folder) / name).string());
+  const std::filesystem::path folder(options.folder);
+  for (const EngineName& engine : kEngines)
+    files.push_back((folder / fmt::format("{}.csv", engine.key)).string());
   return files;
 }
 
