@@ -31,30 +31,56 @@ InputLayout::InputLayout(const Model& model)
       tanks(count(model.tanks)),
       nozzles(count(model.nozzles)) {}
 
-InputFeed::InputFeed(const Model& model)
-    : model_(model), schedules_(schedules_of(model)) {
-  inputs_.layout = InputLayout(model);
-  inputs_.u.resize(schedules_.size());
+InputFeed::InputFeed(const Model& model) : model_(model), schedules_(schedules_of(model)) {
+  now_.inputs.layout = InputLayout(model);
+  now_.inputs.u.resize(schedules_.size());
+  now_.is_driven.resize(schedules_.size());
   fill_tanks();
   begin(0.0);
 }
 
 const Inputs& InputFeed::begin(double time) {
-  if (time < inputs_.since) fill_tanks();
-  inputs_.since = time;
-  for (std::size_t i = 0; i < schedules_.size(); ++i) inputs_.u[i] = schedules_[i]->at(time);
-  for (std::size_t k = 0; k < next_.size(); ++k) {
-    const std::vector<Schedule::Entry>& entries = model_.tanks[k].mass_flow.entries;
-    for (std::size_t& next = next_[k]; next < entries.size() && entries[next].time <= time; ++next)
-      inputs_.tanks[k].change(entries[next].time, entries[next].value);
+  Inputs& inputs = now_.inputs;
+  if (time < inputs.since) fill_tanks();
+  inputs.since = time;
+  for (std::size_t i = 0; i < schedules_.size(); ++i)
+    if (!now_.is_driven[i]) inputs.u[i] = schedules_[i]->at(time);
+  for (std::size_t k = 0; k < inputs.tanks.size(); ++k) {
+    const auto flow = static_cast<std::size_t>(inputs.layout.tank_flow(static_cast<int>(k)));
+    const std::vector<Schedule::Entry>& entries = schedules_[flow]->entries;
+    for (std::size_t& next = now_.next[k]; next < entries.size() && entries[next].time <= time;
+         ++next)
+      if (!now_.is_driven[flow]) inputs.tanks[k].change(entries[next].time, entries[next].value);
   }
-  return inputs_;
+  return inputs;
+}
+
+const Inputs& InputFeed::drive(int input, double value, double time) {
+  now_.is_driven[static_cast<std::size_t>(input)] = true;
+  set(input, value, time);
+  return now_.inputs;
+}
+
+const Inputs& InputFeed::release(int input, double time) {
+  const auto i = static_cast<std::size_t>(input);
+  now_.is_driven[i] = false;
+  set(input, schedules_[i]->at(time), time);
+  return now_.inputs;
+}
+
+void InputFeed::set(int input, double value, double time) {
+  Inputs& inputs = now_.inputs;
+  inputs.u[static_cast<std::size_t>(input)] = value;
+  const int tank = input - inputs.layout.tank_flow(0);
+  if (tank < 0 || tank >= inputs.layout.tanks) return;
+  Drain& drain = inputs.tanks[static_cast<std::size_t>(tank)];
+  if (drain.flow != value) drain.change(time, value);
 }
 
 void InputFeed::fill_tanks() {
-  inputs_.tanks.clear();
-  for (const Tank& tank : model_.tanks) inputs_.tanks.push_back({.full = tank.content});
-  next_.assign(model_.tanks.size(), 0);
+  now_.inputs.tanks.clear();
+  for (const Tank& tank : model_.tanks) now_.inputs.tanks.push_back({.full = tank.content});
+  now_.next.assign(model_.tanks.size(), 0);
 }
 
 Inputs inputs_at(const Model& model, double time) { return InputFeed(model).begin(time); }

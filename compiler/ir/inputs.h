@@ -35,22 +35,39 @@ struct Inputs {
   Vector3d vector(int i) const { return Vector3d::Map(&u[static_cast<std::size_t>(i)]); }
 };
 
-/// Follows the schedules of a model, which must outlive it.
+/// Follows the schedules of a model, which must outlive it; an input that is driven holds its value
+/// in place of its schedule.
 class InputFeed {
  public:
   explicit InputFeed(const Model& model);
 
+  const Inputs& inputs() const { return now_.inputs; }
+
   /// The inputs from `time` [s] on. Forward in time every change of a flow is added up once; back
-  /// in time all are again. No allocation.
+  /// in time, where nothing may be driven, all are again. No allocation.
   const Inputs& begin(double time);
+
+  /// From `time` on. Driving an input with the value that it has changes nothing. @pre time is not
+  /// before that of the last call
+  const Inputs& drive(int input, double value, double time);
+  const Inputs& release(int input, double time);
+
+  /// How far it is: a value that another feed of the same model goes on from.
+  struct Position {
+    Inputs inputs;
+    std::vector<std::size_t> next;  // of each tank's flow, the entry that comes next
+    std::vector<bool> is_driven;    // of each input
+  };
+  const Position& position() const { return now_; }
+  void go_on_from(const Position& position) { now_ = position; }
 
  private:
   void fill_tanks();
+  void set(int input, double value, double time);
 
   const Model& model_;
   std::vector<const Schedule*> schedules_;  // of every input, in the order of the layout
-  std::vector<std::size_t> next_;           // of each tank's flow, the entry that comes next
-  Inputs inputs_;
+  Position now_;
 };
 
 /// The inputs of a model from `time` [s] on, once.

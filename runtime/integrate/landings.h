@@ -15,22 +15,34 @@ struct Landing {
 
 class Landings {
  public:
-  /// @param events  sorted, without repeats, inside (0, duration) [s]
+  /// @param events    sorted, without repeats, inside (0, duration) [s]
+  /// @param duration  [s] infinite: there is no end
   /// @pre step > 0
   Landings(double step, double duration, std::vector<double> events);
 
   /// Instants closer than this [s] are one: a multiple of the step next to an event is the event.
   double tolerance() const { return 1.0e-9 * step_; }
-  bool done() const { return done_; }
+  bool done() const { return next_.done; }
   Landing next();  // @pre not done()
+  /// What next() would give.
+  Landing peek() const;
+
+  /// How far it is.
+  struct Position {
+    std::size_t event = 0;   // the next one
+    std::int64_t index = 1;  // of the next multiple
+    bool done = false;
+  };
+  const Position& position() const { return next_; }
+  void go_on_from(const Position& position) { next_ = position; }
 
  private:
+  Landing follow(Position& at) const;
+
   double step_;
   double duration_;
   std::vector<double> events_;
-  std::size_t event_ = 0;   // the next one
-  std::int64_t index_ = 1;  // of the next multiple
-  bool done_;
+  Position next_;
 };
 
 }  // namespace twincraft

@@ -30,7 +30,17 @@ class RungeKutta {
   RungeKutta(const Tableau& tableau, Ode& ode);
 
   const Tableau& tableau() const { return tableau_; }
+  int size() const { return size_; }
   std::span<double> state() { return {state_.value.data(), static_cast<std::size_t>(size_)}; }
+
+  /// A state and what is still to be added to it: too small for its last digit.
+  struct Solution {
+    Eigen::VectorXd value;
+    Eigen::VectorXd carry;
+  };
+  /// Where it is, to be gone on from by any stepper of the same method and size, to the bit.
+  const Solution& solution() const { return state_; }
+  void go_on_from(const Solution& solution) { state_ = solution; }
 
   /// Start anew from `state`: nothing is carried over from earlier steps.
   void restart(std::span<const double> state);
@@ -53,12 +63,6 @@ class RungeKutta {
   int first_non_finite() const;
 
  private:
-  // A state and what is still to be added to it: too small for its last digit.
-  struct Solution {
-    Eigen::VectorXd value;
-    Eigen::VectorXd carry;
-  };
-
   // h * sum of coefficient * stage, over the non-zero coefficients only, added to a base.
   struct WeightedSum {
     std::array<double, Tableau::kMaxStages> coefficient{};

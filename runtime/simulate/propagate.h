@@ -1,6 +1,6 @@
-// One engine through one plan: fixed or adaptive steps, split at events, recorded at samples.
-// A step lands on every multiple of the plan's step, every event and the end. The recorded run
-// integrates the books beside the state; its trajectory is bitwise that of the bare run.
+// One engine through one plan, recorded at samples. A step lands on every multiple of the plan's
+// step, every event and the end. The recorded run integrates the books beside the state; its
+// trajectory is bitwise that of the bare run.
 // Tested by tests/runtime/propagate_test.cpp.
 #pragma once
 
@@ -11,18 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "runtime/engine/engine.h"
-#include "runtime/integrate/step_control.h"
+#include "runtime/simulate/flight.h"
 
 namespace twincraft {
-
-/// What the outside did to the vehicle since t = 0, integrated beside the state.
-struct Books {
-  double work = 0.0;                              // [J]
-  Vector3d impulse_N = Vector3d::Zero();          // [N s]
-  Vector3d angular_impulse_N = Vector3d::Zero();  // [N m s] about C
-  double own_work = 0.0;                          // [J] on the motion about C
-};
 
 /// Takes what a run records, one sample after another.
 class SampleSink {
@@ -83,8 +74,8 @@ class RecordedRun {
   Trajectory take_trajectory();
 
  private:
-  class Flight;
-  std::unique_ptr<Flight> flight_;
+  class Recording;
+  std::unique_ptr<Recording> recording_;
 };
 
 /// The whole run at once, with all its samples: the run whose results are compared.

@@ -1,0 +1,195 @@
+// See flight.h. What is integrated is the engine alone, or the engine and its books.
+#include "runtime/simulate/flight.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "runtime/integrate/engine_ode.h"
+
+namespace twincraft {
+namespace {
+
+// The books are quadratures appended behind the state: nothing reads them back.
+constexpr std::size_t kBooks = 8;
+
+bool is_adaptive(const Model& model) { return tableau_of(model.simulation.method).adaptive; }
+
+std::string coordinate_name(const Model& model, bool is_wheel, int index) {
+  for (const Coordinate& coordinate : model.coordinates) {
+    const bool names_wheel = coordinate.kind == Coordinate::Kind::kWheel;
+    if (names_wheel == is_wheel && coordinate.index == index) return coordinate.name;
+  }
+  return fmt::format("{} {}", is_wheel ? "wheel" : "joint", index);
+}
+
+/// A name for every entry of the state and the books behind it, as in the CSV files.
+std::vector<std::string> state_names(const Model& model, const StateLayout& layout) {
+  std::vector<std::string> names;
+  const auto add = [&names](std::string_view vector, std::string_view components) {
+    for (const char component : components)
+      names.push_back(fmt::format("{}.{}", vector, component));
+  };
+  add("r_BN_N", "xyz");
+  add("v_BN_N", "xyz");
+  if (layout.attitude_size() == 3) add("sigma_BN", "123");
+  if (layout.attitude_size() == 4) add("q_BN", "wxyz");
+  if (layout.rate_size() > 0) add("omega_BN_B", "xyz");
+  for (const char* quantity : {"position", "rate"}) {
+    for (int link = 1; link <= layout.joints; ++link)
+      names.push_back(coordinate_name(model, false, link) + "." + quantity);
+  }
+  for (int rotor = 0; rotor < layout.wheels; ++rotor)
+    names.push_back(coordinate_name(model, true, rotor) + ".rate");
+  names.push_back("work");
+  add("impulse_N", "xyz");
+  add("angular_impulse_N", "xyz");
+  names.push_back("own_work");
+  return names;
+}
+
+/// Inputs change there, or a stored state waits: a run has to meet what it is held against.
+std::vector<double> events_of(const Model& model) {
+  std::vector<double> times = input_events(model);
+  for (const StoredState& state : model.stored.states)
+    if (state.time > 0.0 && state.time < model.simulation.duration) times.push_back(state.time);
+  std::ranges::sort(times);
+  times.erase(std::unique(times.begin(), times.end()), times.end());
+  return times;
+}
+
+}  // namespace
+
+class Flight::BookkeepingOde final : public Ode {
+ public:
+  explicit BookkeepingOde(Engine& engine)
+      : engine_(engine), size_(static_cast<std::size_t>(engine.layout().size())) {}
+  int size() const override { return static_cast<int>(size_ + kBooks); }
+  void derivative(double time, std::span<const double> state, std::span<double> rate) override {
+    BookRates of_books;
+    engine_.derivative(time, state.first(size_), rate.first(size_), &of_books);
+    const std::span<double> books = rate.last(kBooks);
+    books[0] = of_books.power;
+    Vector3d::Map(&books[1]) = of_books.force_N;
+    Vector3d::Map(&books[4]) = of_books.torque_PntC_N;
+    books[7] = of_books.own_power;
+  }
+  void finish_step(std::span<double> state) override { engine_.finish_step(state.first(size_)); }
+
+ private:
+  Engine& engine_;
+  std::size_t size_;
+};
+
+/// The trial step of an adaptive method may be far too long and end in a state that no engine can
+/// evaluate: that is no failure, but a step to be rejected, as for any other non-finite rate.
+class Flight::ExcusingOde final : public Ode {
+ public:
+  explicit ExcusingOde(Ode& ode) : ode_(ode) {}
+  int size() const override { return ode_.size(); }
+  void derivative(double time, std::span<const double> state, std::span<double> rate) override {
+    try {
+      ode_.derivative(time, state, rate);
+    } catch (const NumericalFailure& failure) {
+      std::ranges::fill(rate, std::numeric_limits<double>::quiet_NaN());
+      excuse_ = failure.what();
+    }
+  }
+  void finish_step(std::span<double> state) override { ode_.finish_step(state); }
+
+  /// The engine's own words, for when no step is short enough; empty before it failed.
+  const std::string& excuse() const { return excuse_; }
+  void forgive() { excuse_.clear(); }
+
+ private:
+  Ode& ode_;
+  std::string excuse_;
+};
+
+Flight::Flight(Engine& engine, const Model& model, FlightOptions options)
+    : engine_(engine),
+      ode_(options.keeps_books ? std::unique_ptr<Ode>(std::make_unique<BookkeepingOde>(engine))
+                               : std::make_unique<EngineOde>(engine)),
+      excusing_(is_adaptive(model) ? std::make_unique<ExcusingOde>(*ode_) : nullptr),
+      stepper_(tableau_of(model.simulation.method), excusing_ ? *excusing_ : *ode_),
+      names_(state_names(model, engine.layout())),
+      control_(engine.layout(), model.simulation.tolerance, names_),
+      landings_(
+          model.simulation.step,
+          options.has_end ? model.simulation.duration : std::numeric_limits<double>::infinity(),
+          events_of(model)),
+      feed_(model) {
+  engine.hold(feed_.begin(0.0));
+  std::ranges::copy(engine.initial_state(), stepper_.state().begin());
+}
+
+Flight::~Flight() = default;
+
+std::span<const double> Flight::state() const {
+  return {stepper_.solution().value.data(), static_cast<std::size_t>(engine_.layout().size())};
+}
+
+Books Flight::books() const {
+  const auto size = static_cast<std::size_t>(engine_.layout().size());
+  const std::size_t all = names_.size();
+  if (stepper_.size() == static_cast<int>(size)) return {};
+  const std::span<const double> books{stepper_.solution().value.data() + size, all - size};
+  return {books[0], Vector3d::Map(&books[1]), Vector3d::Map(&books[4]), books[7]};
+}
+
+void Flight::advance(const std::atomic<bool>* stop) {
+  const Landing landing = landings_.next();
+  step_to(landing.time, stop);
+  if (landing.is_event) engine_.hold(feed_.begin(landing.time));
+}
+
+void Flight::advance_to(double time) {
+  while (!done() && landings_.peek().time <= time + tolerance()) advance();
+  if (!done() && time > time_ + tolerance()) step_to(time, nullptr);
+}
+
+void Flight::step_to(double time, const std::atomic<bool>* stop) {
+  if (excusing_) return step_adaptively(time, stop);
+  stepper_.step(time_, time - time_);
+  counts_.evaluations += stepper_.tableau().stages;
+  ++counts_.accepted;
+  if (!stepper_.state_is_finite()) fail();
+  time_ = time;
+}
+
+void Flight::step_adaptively(double to, const std::atomic<bool>* stop) {
+  excusing_->forgive();
+  try {
+    time_ = control_.advance(stepper_, time_, to, counts_, stop, &accepted_);
+  } catch (const NumericalFailure&) {
+    if (excusing_->excuse().empty()) throw;
+    throw NumericalFailure(excusing_->excuse() + ", however short the step");
+  }
+}
+
+void Flight::fail() const {
+  const auto entry = static_cast<std::size_t>(stepper_.first_non_finite());
+  throw NumericalFailure(fmt::format("`{}` is not finite", names_[entry]));
+}
+
+void Flight::drive(int input, double value) { engine_.hold(feed_.drive(input, value, time_)); }
+
+void Flight::release(int input) { engine_.hold(feed_.release(input, time_)); }
+
+Flight::Snapshot Flight::snapshot() const {
+  return {time_, stepper_.solution(), landings_.position(), feed_.position(), counts_, accepted_};
+}
+
+void Flight::restore(const Snapshot& snapshot) {
+  time_ = snapshot.time;
+  stepper_.go_on_from(snapshot.solution);
+  landings_.go_on_from(snapshot.landing);
+  feed_.go_on_from(snapshot.inputs);
+  counts_ = snapshot.counts;
+  accepted_ = snapshot.accepted;
+  engine_.hold(feed_.inputs());
+}
+
+}  // namespace twincraft

@@ -1,0 +1,98 @@
+// One engine on its way: from landing to landing of its plan, or exactly to a time between them,
+// with inputs that follow their schedules or are driven. Everything that moves an engine is built
+// on it.  Tested by tests/runtime/flight_test.cpp.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "compiler/ir/inputs.h"
+#include "runtime/engine/engine.h"
+#include "runtime/integrate/landings.h"
+#include "runtime/integrate/step_control.h"
+
+namespace twincraft {
+
+/// What the outside did to the vehicle since t = 0, integrated beside the state.
+struct Books {
+  double work = 0.0;                              // [J]
+  Vector3d impulse_N = Vector3d::Zero();          // [N s]
+  Vector3d angular_impulse_N = Vector3d::Zero();  // [N m s] about C
+  double own_work = 0.0;                          // [J] on the motion about C
+};
+
+struct FlightOptions {
+  bool keeps_books = false;
+  bool has_end = true;  // at the plan's duration, else never
+};
+
+class Flight {
+ public:
+  /// At t = 0. All that is referred to must outlive it. @pre step and duration are positive
+  Flight(Engine& engine, const Model& model, FlightOptions options = {});
+  ~Flight();
+  Flight(const Flight&) = delete;
+  Flight& operator=(const Flight&) = delete;
+
+  bool done() const { return landings_.done(); }
+  double time() const { return time_; }                       // [s]
+  double tolerance() const { return landings_.tolerance(); }  // [s] closer instants are one
+  std::span<const double> state() const;                      // of the engine
+  Books books() const;                                        // zeros unless they are kept
+  const StepCounts& counts() const { return counts_; }
+  const AcceptedErrors& accepted() const { return accepted_; }
+
+  /// To the next landing, or as far as an adaptive method got when `*stop` became true.
+  /// @throws NumericalFailure; the engine is then beyond its last good step. @pre not done()
+  void advance(const std::atomic<bool>* stop = nullptr);
+
+  /// To exactly `time` [s], which splits a step unless it is a landing, or to the end where that
+  /// comes first. Pieces that end on landings give the bytes of one run.
+  /// @throws NumericalFailure
+  void advance_to(double time);
+
+  /// The inputs as they act now.
+  const Inputs& inputs() const { return feed_.inputs(); }
+  /// Hold an input at a value from now on, in place of its schedule. @param input  see InputLayout
+  void drive(int input, double value);
+  /// Give it back to its schedule.
+  void release(int input);
+
+  /// Everything that the motion from here on depends on: a flight of the same model and engine goes
+  /// on from it to the bit.
+  struct Snapshot {
+    double time = 0.0;
+    RungeKutta::Solution solution;
+    Landings::Position landing;
+    InputFeed::Position inputs;
+    StepCounts counts;
+    AcceptedErrors accepted;
+  };
+  Snapshot snapshot() const;
+  void restore(const Snapshot& snapshot);
+
+ private:
+  class BookkeepingOde;
+  class ExcusingOde;
+
+  void step_to(double time, const std::atomic<bool>* stop);
+  void step_adaptively(double to, const std::atomic<bool>* stop);
+  [[noreturn]] void fail() const;
+
+  Engine& engine_;
+  std::unique_ptr<Ode> ode_;
+  std::unique_ptr<ExcusingOde> excusing_;  // of an adaptive method
+  RungeKutta stepper_;
+  std::vector<std::string> names_;
+  StepControl control_;
+  Landings landings_;
+  InputFeed feed_;
+  double time_ = 0.0;
+  StepCounts counts_;
+  AcceptedErrors accepted_;
+};
+
+}  // namespace twincraft

@@ -1,0 +1,142 @@
+// Flights of the real engines: pieces give the bytes of the whole, a snapshot is gone on from to
+// the bit, and driving an input with what its schedule says changes nothing.
+#include "runtime/simulate/flight.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "runtime/simulate/engines.h"
+#include "tests/support/compiled.h"
+
+namespace twincraft {
+namespace {
+
+using State = std::vector<double>;
+
+/// Two tanks that drain, slosh, a panel and gravity: what a flight has to keep in mind.
+Bundle burn() { return test::compiled_file("tests/components/vehicles/burn.yaml"); }
+
+State state_of(const Flight& flight) { return {flight.state().begin(), flight.state().end()}; }
+
+State flown(Flight& flight) {
+  while (!flight.done()) flight.advance();
+  return state_of(flight);
+}
+
+class Flights : public testing::TestWithParam<EngineKind> {
+ protected:
+  std::unique_ptr<Engine> engine(const Bundle& bundle) const {
+    return make_engine(GetParam(), bundle);
+  }
+};
+
+TEST_P(Flights, InPiecesThatEndOnTheGridGiveTheBytesOfOne) {
+  const Bundle bundle = burn();
+  const auto a = engine(bundle), b = engine(bundle);
+  Flight whole(*a, bundle.model), pieces(*b, bundle.model);
+  for (const double time : {0.02, 0.02, 2.0, 3.14, 7.0, 10.0}) pieces.advance_to(time);
+  EXPECT_TRUE(pieces.done());
+  EXPECT_EQ(state_of(pieces), flown(whole));
+}
+
+TEST_P(Flights, EndExactlyWhereTheyAreSentAndReturnToTheGrid) {
+  const Bundle bundle = burn();
+  const auto engine = this->engine(bundle);
+  Flight flight(*engine, bundle.model);
+  flight.advance_to(1.0 / 3.0);
+  EXPECT_EQ(flight.time(), 1.0 / 3.0);
+  flight.advance();
+  EXPECT_EQ(flight.time(), 17 * bundle.model.simulation.step);
+  flight.advance_to(1.0e9);
+  EXPECT_EQ(flight.time(), bundle.model.simulation.duration);
+}
+
+TEST_P(Flights, GoOnForeverWithoutAnEnd) {
+  const Bundle bundle = burn();
+  const auto engine = this->engine(bundle);
+  Flight flight(*engine, bundle.model, {.has_end = false});
+  flight.advance_to(2.0 * bundle.model.simulation.duration);
+  EXPECT_EQ(flight.time(), 2.0 * bundle.model.simulation.duration);
+  EXPECT_FALSE(flight.done());
+}
+
+TEST_P(Flights, GoOnFromASnapshotToTheBit) {
+  const Bundle bundle = burn();
+  const auto a = engine(bundle), b = engine(bundle);
+  Flight flight(*a, bundle.model, {.keeps_books = true});
+  Flight other(*b, bundle.model, {.keeps_books = true});
+  flight.advance_to(3.7);
+  flight.drive(flight.inputs().layout.effort(0), 0.25);
+  flight.advance_to(5.03);  // between landings, with a driven input, in the middle of a burn
+  const Flight::Snapshot snapshot = flight.snapshot();
+  other.advance_to(8.5);
+  other.restore(snapshot);
+  EXPECT_EQ(other.time(), 5.03);
+  EXPECT_EQ(flown(other), flown(flight));
+  EXPECT_EQ(other.books().work, flight.books().work);
+  EXPECT_EQ(other.counts().evaluations, flight.counts().evaluations);
+  flight.restore(snapshot);
+  EXPECT_EQ(flown(flight), state_of(other));
+}
+
+TEST_P(Flights, DrivenWithZerosWhereTheScheduleIsZeroHaveTheSameBytes) {
+  Bundle bundle = burn();
+  bundle.model.loads.push_back({"push", 0, {}, {}, Vector3d(0.1, 0.2, 0.3)});
+  const auto a = engine(bundle), b = engine(bundle);
+  Flight left_alone(*a, bundle.model), driven(*b, bundle.model);
+  const InputLayout& inputs = driven.inputs().layout;
+  const int push = inputs.force(inputs.loads - 1);
+  for (int i = 0; i < 3; ++i) driven.drive(push + i, 0.0);
+  driven.drive(inputs.effort(0), 0.0);
+  EXPECT_EQ(flown(driven), flown(left_alone));
+}
+
+/// What acts by schedule in one flight is fed live to another whose schedules are empty.
+TEST_P(Flights, FedLiveWithTheirScheduleHaveTheSameBytes) {
+  const Bundle bundle = burn();
+  Bundle bare = burn();
+  for (Load& load : bare.model.loads) load.force_L = {};
+  for (Tank& tank : bare.model.tanks) tank.mass_flow = {};
+  const auto a = engine(bundle), b = engine(bare);
+  Flight scheduled(*a, bundle.model), live(*b, bare.model);
+  InputFeed schedule(bundle.model);
+  const auto feed = [&](double time) {
+    const Inputs& now = schedule.begin(time);
+    for (int i = 0; i < now.layout.size(); ++i)
+      if (now[i] != live.inputs()[i]) live.drive(i, now[i]);
+  };
+  feed(0.0);
+  for (const double time : input_events(bundle.model)) {
+    live.advance_to(time);
+    feed(time);
+  }
+  EXPECT_NE(live.inputs().tanks.front().spent, 0.0);
+  EXPECT_EQ(flown(live), flown(scheduled));
+}
+
+TEST_P(Flights, FollowTheScheduleAgainWhenAnInputIsReleased) {
+  const Bundle bundle = burn();
+  const auto engine = this->engine(bundle);
+  Flight flight(*engine, bundle.model);
+  const InputLayout inputs = flight.inputs().layout;
+  const int flow = inputs.tank_flow(0);
+  const double scheduled = flight.inputs()[flow];
+  flight.advance_to(1.0);
+  flight.drive(flow, 0.0);
+  flight.advance_to(2.5);
+  EXPECT_EQ(flight.inputs().tanks.front().content(2.5), 500.0 - scheduled);
+  flight.release(flow);
+  EXPECT_EQ(flight.inputs()[flow], scheduled);
+  flight.advance_to(4.0);
+  EXPECT_DOUBLE_EQ(flight.inputs().tanks.front().content(4.0), 500.0 - 2.5 * scheduled);
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, Flights, testing::Values(EngineKind::kBsm, EngineKind::kMujoco),
+                         [](const auto& param_info) {
+                           return std::string(name_of(param_info.param).key);
+                         });
+
+}  // namespace
+}  // namespace twincraft
