@@ -15,20 +15,14 @@ constexpr double kQuaternionTolerance = 1.0e-6;  // of the norm
 constexpr double kRotationTolerance = 1.0e-9;    // of D D^T - 1
 constexpr double kParallelTolerance = 1.0e-9;    // sine between two aligned axes
 
-Kind<std::string> words(const std::vector<std::string>& spellings) {
-  std::vector<std::pair<std::string, std::string>> pairs;
-  for (const std::string& word : spellings) pairs.emplace_back(word, word);
-  return one_of<std::string>(pairs);
-}
-
 const Table<EulerSpec>& euler_table() {
   static const Table<EulerSpec> table{
       "euler",
       "Three turns, each about an axis of the frame as the turns before have left it.",
       {
           required("sequence", &EulerSpec::sequence,
-                   words({"xyz", "xzy", "yxz", "yzx", "zxy", "zyx", "xyx", "xzx", "yxy", "yzy",
-                          "zxz", "zyz"}),
+                   word({"xyz", "xzy", "yxz", "yzx", "zxy", "zyx", "xyx", "xzx", "yxy", "yzy",
+                         "zxz", "zyz"}),
                    "The axes in the order of the turns."),
           required("angles", &EulerSpec::angles, vector3("rad"), "In the order of `sequence`."),
       }};
@@ -41,10 +35,10 @@ const Table<AlignSpec>& align_table() {
       "A body axis and the direction it points in.",
       {
           required("axis", &AlignSpec::axis,
-                   either(&Node::is_scalar, words({"x", "y", "z", "-x", "-y", "-z"}), direction()),
+                   either(is_scalar, word({"x", "y", "z", "-x", "-y", "-z"}), direction()),
                    "An axis of B, or a vector in B components."),
           required("to", &AlignSpec::to,
-                   either(&Node::is_scalar,
+                   either(is_scalar,
                           one_of<OrbitDirection>({{"velocity", OrbitDirection::kVelocity},
                                                   {"orbit_normal", OrbitDirection::kOrbitNormal},
                                                   {"radial", OrbitDirection::kRadial}}),

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "compiler/components/physical.h"
+#include "compiler/schema/own_kind.h"
 
 namespace twincraft {
 namespace {
@@ -16,8 +17,8 @@ using Circle = std::vector<const BodySpec*>;
 
 constexpr std::size_t kLongestCircleNamed = 6;
 
-Kind<JointType> joint_type(std::vector<std::pair<std::string, JointType>> words) {
-  return one_of<JointType>(std::move(words));
+Kind<JointType> joint_type(const std::vector<std::pair<std::string_view, JointType>>& words) {
+  return one_of<JointType>(words);
 }
 
 const char* const kPosition = "Of the joint, in the parent's axes.";
@@ -100,7 +101,7 @@ std::optional<JointType> read_type(const Node& joint, ReadContext& context) {
                                            {"prismatic", JointType::kPrismatic},
                                            {"fixed", JointType::kFixed}});
   if (!joint.is_map()) {
-    report_wrong_type(joint, context, "a map", "it begins with `type`: " + type.text);
+    report_wrong_type(joint, context, "a map", "it begins with `type`: " + type.text());
     return std::nullopt;
   }
   if (const Node* written = joint.find("type")) {
@@ -109,7 +110,7 @@ std::optional<JointType> read_type(const Node& joint, ReadContext& context) {
   }
   context.diagnostics
       .error(Code::kMissingKey, joint.span, fmt::format("`type` is missing in {}", context.where))
-      .with_hint("add `type`: " + type.text);
+      .with_hint("add `type`: " + type.text());
   return std::nullopt;
 }
 
@@ -118,17 +119,17 @@ Kind<JointSpec> joint() {
   const Kind<JointSpec> revolute = object(revolute_table());
   const Kind<JointSpec> prismatic = object(prismatic_table());
   const Kind<JointSpec> fixed = object(fixed_table());
-  return {
+  return own_kind<JointSpec>({
       .text = words_text({"revolute", "prismatic", "fixed"}, "or") + " joint",
-      .schema = any_of(revolute.schema, any_of(prismatic.schema, fixed.schema)),
+      .schema = any_of(revolute.schema(), any_of(prismatic.schema(), fixed.schema())),
       .read = [](const Node& node, ReadContext& context) -> std::optional<JointSpec> {
         const std::optional<JointType> type = read_type(node, context);
         if (!type) return std::nullopt;
         return table_of(*type).read_inside(node, context);
       },
       .write = [](const JointSpec& spec) { return table_of(spec.type).write(spec); },
-      .tables = joined(revolute.tables, joined(prismatic.tables, fixed.tables)),
-  };
+      .tables = joined(revolute.tables(), joined(prismatic.tables(), fixed.tables())),
+  });
 }
 
 /// A body is turned from its parent, where the directions of an orbit mean nothing.

@@ -14,11 +14,11 @@ const Table<LoadSpec>& load_table() {
           optional("mount", &LoadSpec::mount, reference_to("body"), "What the load acts on."),
           optional("force", &LoadSpec::force, schedule3("N"), "Acts at `position`."),
           optional("torque", &LoadSpec::torque, schedule3("N m"), "Adds to the force's moment."),
-          optional("position", &LoadSpec::position,
-                   either(&Node::is_scalar, one_of<LoadPoint>({{"com", LoadPoint::kSystemCom}}),
-                          vector3("m")),
-                   "Where the force acts: a point from the mount's origin, or `com`, the system "
-                   "centre of mass at every instant."),
+          optional(
+              "position", &LoadSpec::position,
+              either(is_scalar, one_of<LoadPoint>({{"com", LoadPoint::kSystemCom}}), vector3("m")),
+              "Where the force acts: a point from the mount's origin, or `com`, the system "
+              "centre of mass at every instant."),
           optional("during", &LoadSpec::during, maybe(intervals()),
                    "Half-open intervals [start, end) in which the load acts; default always."),
       }};

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "compiler/ir/number.h"
+#include "compiler/schema/own_kind.h"
 
 namespace twincraft {
 namespace {
@@ -15,9 +16,14 @@ constexpr const char* kUnboundHint =
 
 /// Positive; of a negative one check() knows what it means.
 Kind<double> semi_major_axis() {
-  Kind<double> kind = quantity("m", Range::kPositive);
-  kind.read = quantity("m").read;
-  return kind;
+  const Kind<double> positive = quantity("m", Range::kPositive);
+  return own_kind<double>({
+      .text = positive.text(),
+      .schema = positive.schema(),
+      .read = [any = quantity("m")](const Node& node,
+                                    ReadContext& context) { return any.read(node, context); },
+      .write = [positive](const double& value) { return positive.write(value); },
+  });
 }
 
 }  // namespace

@@ -1,11 +1,11 @@
 // The kinds of single plain values: numbers, counts, truth values, texts and names.
 // Tested by tests/compiler/kind_test.cpp.
-#include "compiler/schema/kind.h"
-
 #include <fmt/format.h>
 
 #include <array>
 #include <cmath>
+
+#include "compiler/schema/own_kind.h"
 
 namespace twincraft {
 namespace {
@@ -122,6 +122,8 @@ std::optional<bool> read_boolean(const Node& node, ReadContext& context) {
 
 }  // namespace
 
+bool is_scalar(const Node& node) { return node.is_scalar(); }
+
 bool is_section(const Node& node) {
   return node.is_map() && node.find("value") == nullptr && node.find("unit") == nullptr;
 }
@@ -179,7 +181,7 @@ std::optional<double> read_number(const Node& node, ReadContext& context) {
 }
 
 Kind<double> number(Range range) {
-  return {
+  return own_kind<double>({
       .text = "number" + range_text(range),
       .schema = number_schema(range),
       .read = [range](const Node& node, ReadContext& context) -> std::optional<double> {
@@ -188,33 +190,33 @@ Kind<double> number(Range range) {
         return value;
       },
       .write = [](const double& value) -> Json { return value; },
-  };
+  });
 }
 
 Kind<int> integer(int minimum, int maximum) {
   Json schema = {{"type", "integer"}, {"minimum", minimum}};
   if (maximum != std::numeric_limits<int>::max()) schema["maximum"] = maximum;
-  return {
+  return own_kind<int>({
       .text = integer_text(minimum, maximum),
       .schema = schema,
       .read = [minimum, maximum](const Node& node, ReadContext& context) -> std::optional<int> {
         return read_integer(node, context, minimum, maximum);
       },
       .write = [](const int& value) -> Json { return value; },
-  };
+  });
 }
 
 Kind<bool> boolean() {
-  return {
+  return own_kind<bool>({
       .text = "`true` or `false`",
       .schema = {{"type", "boolean"}},
       .read = read_boolean,
       .write = [](const bool& value) -> Json { return value; },
-  };
+  });
 }
 
 Kind<std::string> text() {
-  return {
+  return own_kind<std::string>({
       .text = "text",
       .schema = {{"type", "string"}},
       .read = [](const Node& node, ReadContext& context) -> std::optional<std::string> {
@@ -223,11 +225,11 @@ Kind<std::string> text() {
         return *text;
       },
       .write = [](const std::string& value) -> Json { return value; },
-  };
+  });
 }
 
 Kind<std::string> name() {
-  return {
+  return own_kind<std::string>({
       .text = "name",
       .schema = {{"type", "string"},
                  {"pattern", kNamePattern},
@@ -235,18 +237,31 @@ Kind<std::string> name() {
                  {"not", {{"enum", kReservedWords}}}},
       .read = read_name,
       .write = [](const std::string& value) -> Json { return value; },
-  };
+  });
 }
 
 Kind<std::string> reference_to(std::string what) {
-  return {
+  return own_kind<std::string>({
       .text = what + " name",
       .schema = {{"type", "string"}, {"pattern", kNamePattern}, {"maxLength", kLongestName}},
       .read = [what](const Node& node, ReadContext& context) -> std::optional<std::string> {
         return read_name_form(node, context, fmt::format("a {} name", what));
       },
       .write = [](const std::string& value) -> Json { return value; },
-  };
+  });
+}
+
+Kind<std::string> word(std::vector<std::string> words) {
+  return own_kind<std::string>({
+      .text = words_text(words, "or"),
+      .schema = {{"enum", words}},
+      .read = [words](const Node& node, ReadContext& context) -> std::optional<std::string> {
+        const std::optional<std::size_t> index = read_word(node, context, words);
+        if (!index) return std::nullopt;
+        return words[*index];
+      },
+      .write = [](const std::string& value) -> Json { return value; },
+  });
 }
 
 }  // namespace twincraft

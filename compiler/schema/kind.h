@@ -2,14 +2,19 @@
 // value: how to read it from a syntax node, how to describe it in JSON Schema, how to name it in
 // the reference, and how to write it back resolved. Kinds combine: list_of(quantity("m")),
 // one_or_list(...), object(table). Field tables are made of kinds, and nothing else states what the
-// language accepts. Tested by tests/compiler/kind_test.cpp.
+// language accepts. One that is not made of others is an own_kind (own_kind.h).
+//
+// Templates here only say of which type a value is; reading and writing are compiled once, behind
+// AnyKind, or every key of the language would cost a fifth of a second.
+// Tested by tests/compiler/kind_test.cpp.
 #pragma once
 
 #include <array>
-#include <functional>
+#include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
-#include <type_traits>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -21,15 +26,48 @@
 
 namespace twincraft {
 
+struct KindBody;  // own_kind.h
+
+/// A kind of which the type of its values is not known. Copies share one body.
+class AnyKind {
+ public:
+  explicit AnyKind(std::shared_ptr<const KindBody> body);
+  AnyKind(const AnyKind&);
+  AnyKind(AnyKind&&) noexcept;
+  AnyKind& operator=(const AnyKind&);
+  AnyKind& operator=(AnyKind&&) noexcept;
+  ~AnyKind();
+
+  const std::string& text() const;  // for the reference: "quantity [kg]", "`rk4` or `euler`"
+  const Json& schema() const;       // JSON Schema draft-07 fragment
+  /// The maps a value may hold, for the reference.
+  const std::vector<const TableInfo*>& tables() const;
+
+  /// Report what is wrong and return false; else `value`, which is of the kind's type, is read.
+  bool read_into(void* value, const Node& node, ReadContext& context) const;
+  /// SI numbers and canonical words; null leaves the key out. @param value  of the kind's type
+  Json write_from(const void* value) const;
+
+ private:
+  std::shared_ptr<const KindBody> body_;
+};
+
 template <class V>
-struct Kind {
-  std::string text;  // for the reference: "quantity [kg]", "`rk4` or `euler`"
-  Json schema;       // JSON Schema draft-07 fragment
+class Kind : public AnyKind {
+ public:
+  explicit Kind(AnyKind any) : AnyKind(std::move(any)) {}
+
   /// Report what is wrong and return nothing, or the value.
-  std::function<std::optional<V>(const Node&, ReadContext&)> read;
-  /// SI numbers and canonical words; null leaves the key out.
-  std::function<Json(const V&)> write;
-  std::vector<const TableInfo*> tables = {};  // the maps a value may hold, for the reference
+  std::optional<V> read(const Node& node, ReadContext& context) const {
+    std::optional<V> value(std::in_place);
+    if (!read_into(&*value, node, context)) return std::nullopt;
+    return value;
+  }
+  /// A template, so that Json need be complete for callers alone.
+  template <class Result = Json>
+  Result write(const V& value) const {
+    return write_from(&value);
+  }
 };
 
 Kind<double> quantity(SiUnit si, Range range = Range::kAny);
@@ -64,34 +102,34 @@ Kind<std::array<Schedule, 3>> schedule3(SiUnit si);
 /// `[[start, end], ...]`, forward, ordered, not overlapping.
 Kind<std::vector<Schedule::Interval>> intervals();
 
-/// One of some words: `one_of<Method>({{"rk4", Method::kRk4}, ...})`.
+/// One of some words.
+Kind<std::string> word(std::vector<std::string> words);
+
+/// The same, each with a meaning: `one_of<Method>({{"rk4", Method::kRk4}, ...})`.
 template <class E>
-Kind<E> one_of(std::vector<std::pair<std::string, E>> words);
+Kind<E> one_of(const std::vector<std::pair<std::string_view, E>>& words);
 
 template <class V>
-Kind<std::vector<V>> list_of(Kind<V> item, std::size_t minimum = 0,
-                             std::size_t maximum = static_cast<std::size_t>(-1));
+Kind<std::vector<V>> list_of(const Kind<V>& item, std::size_t minimum = 0,
+                             std::size_t maximum = kAnyCount);
 
 /// A value or a list of values; a single value becomes a list of one.
 template <class V>
-Kind<std::vector<V>> one_or_list(Kind<V> item);
+Kind<std::vector<V>> one_or_list(const Kind<V>& item);
 
 /// A kind whose value may be absent.
 template <class V>
-Kind<std::optional<V>> maybe(Kind<V> kind);
+Kind<std::optional<V>> maybe(const Kind<V>& kind);
 
+bool is_scalar(const Node& node);
 /// A map of keys, and not numbers with one unit, `{value: [1, 2], unit: mm}`: for either().
 bool is_section(const Node& node);
 
 /// Two spellings told apart by shape: `first` when `suits(node)`, else `second`. For example
-/// `either(&Node::is_scalar, one_of<Com>({{"com", Com{}}}), vector3("m"))`.
+/// `either(is_scalar, one_of<Com>({{"com", Com{}}}), vector3("m"))`.
 template <class A, class B>
-Kind<std::variant<A, B>> either(std::function<bool(const Node&)> suits, Kind<A> first,
-                                Kind<B> second);
-
-/// The same spelling for another C++ type: `from` takes the value read, `to` gives it back.
-template <class V, class From, class To>
-Kind<std::invoke_result_t<From, V>> map(Kind<V> kind, From from, To to);
+Kind<std::variant<A, B>> either(bool (*suits)(const Node&), const Kind<A>& first,
+                                const Kind<B>& second);
 
 }  // namespace twincraft
 

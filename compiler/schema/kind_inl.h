@@ -1,136 +1,107 @@
-// The kinds that combine other kinds. Included by kind.h alone.
-// Tested by tests/compiler/kind_test.cpp.
+// The kinds that combine other kinds: what is done to a list, an optional or a variant of a type,
+// as functions that do not show the type. Included by kind.h alone. Tested by
+// tests/compiler/kind_test.cpp.
 #pragma once
 
-#include <algorithm>
+#include <cstddef>
 
 namespace twincraft {
 
+/// Words and what they mean, as numbers.
+struct WordAccess {
+  void (*store)(void* value, std::int64_t meaning);
+  std::int64_t (*load)(const void* value);
+};
+AnyKind words_kind(std::vector<std::pair<std::string, std::int64_t>> words, WordAccess access);
+
 template <class E>
-Kind<E> one_of(std::vector<std::pair<std::string, E>> words) {
-  std::vector<std::string> spellings;
-  for (const auto& [word, value] : words) spellings.push_back(word);
-  return {
-      .text = words_text(spellings, "or"),
-      .schema = {{"enum", spellings}},
-      .read = [words, spellings](const Node& node, ReadContext& context) -> std::optional<E> {
-        const std::optional<std::size_t> index = read_word(node, context, spellings);
-        if (!index) return std::nullopt;
-        return words[*index].second;
-      },
-      .write = [words](const E& value) -> Json {
-        for (const auto& [word, meaning] : words)
-          if (meaning == value) return word;
-        return nullptr;
-      },
-  };
+Kind<E> one_of(const std::vector<std::pair<std::string_view, E>>& words) {
+  std::vector<std::pair<std::string, std::int64_t>> meanings;
+  for (const auto& [word, value] : words)
+    meanings.emplace_back(word, static_cast<std::int64_t>(value));
+  return Kind<E>(words_kind(
+      std::move(meanings),
+      {[](void* value, std::int64_t meaning) { *static_cast<E*>(value) = static_cast<E>(meaning); },
+       [](const void* value) {
+         return static_cast<std::int64_t>(*static_cast<const E*>(value));
+       }}));
+}
+
+struct ListAccess {
+  void (*clear)(void* list);
+  void* (*append)(void* list);  // an item to be read into
+  std::size_t (*size)(const void* list);
+  const void* (*item)(const void* list, std::size_t index);
+};
+AnyKind list_kind(const AnyKind& item, std::size_t minimum, std::size_t maximum, ListAccess access);
+AnyKind one_or_list_kind(const AnyKind& item, ListAccess access);
+
+template <class V>
+ListAccess list_access() {
+  using List = std::vector<V>;
+  return {[](void* list) { static_cast<List*>(list)->clear(); },
+          [](void* list) -> void* { return &static_cast<List*>(list)->emplace_back(); },
+          [](const void* list) { return static_cast<const List*>(list)->size(); },
+          [](const void* list, std::size_t index) -> const void* {
+            return static_cast<const List*>(list)->data() + index;
+          }};
 }
 
 template <class V>
-Kind<std::vector<V>> list_of(Kind<V> item, std::size_t minimum, std::size_t maximum) {
-  return {
-      .text = "list of " + item.text,
-      .schema = list_schema(item.schema, minimum, maximum),
-      .read = [read = item.read, minimum, maximum](
-                  const Node& node, ReadContext& context) -> std::optional<std::vector<V>> {
-        if (!check_list(node, context, minimum, maximum, "a list")) return std::nullopt;
-        std::vector<V> values;
-        for (std::size_t i = 0; i < node.items.size(); ++i) {
-          ReadContext at_item = item_of(context, i);
-          std::optional<V> value = read(node.items[i], at_item);
-          if (value) values.push_back(std::move(*value));
-        }
-        if (values.size() != node.items.size()) return std::nullopt;
-        return values;
-      },
-      .write = [write = item.write](const std::vector<V>& values) -> Json {
-        Json list = Json::array();
-        for (const V& value : values) list.push_back(write(value));
-        return list;
-      },
-      .tables = item.tables,
-  };
+Kind<std::vector<V>> list_of(const Kind<V>& item, std::size_t minimum, std::size_t maximum) {
+  return Kind<std::vector<V>>(list_kind(item, minimum, maximum, list_access<V>()));
 }
 
 template <class V>
-Kind<std::vector<V>> one_or_list(Kind<V> item) {
-  const Kind<std::vector<V>> list = list_of(item, 1);
-  return {
-      .text = item.text + ", or a list of them",
-      .schema = any_of(item.schema, list.schema),
-      .read = [read = item.read, read_list = list.read](
-                  const Node& node, ReadContext& context) -> std::optional<std::vector<V>> {
-        if (node.is_list()) return read_list(node, context);
-        std::optional<V> value = read(node, context);
-        if (!value) return std::nullopt;
-        return std::vector<V>{std::move(*value)};
-      },
-      .write = [write = item.write, write_list = list.write](const std::vector<V>& values) -> Json {
-        return values.size() == 1 ? write(values.front()) : write_list(values);
-      },
-      .tables = item.tables,
-  };
+Kind<std::vector<V>> one_or_list(const Kind<V>& item) {
+  return Kind<std::vector<V>>(one_or_list_kind(item, list_access<V>()));
 }
 
+struct OptionalAccess {
+  void (*reset)(void* optional);
+  void* (*emplace)(void* optional);
+  const void* (*get)(const void* optional);  // null: nothing
+};
+AnyKind maybe_kind(const AnyKind& kind, OptionalAccess access);
+
 template <class V>
-Kind<std::optional<V>> maybe(Kind<V> kind) {
-  return {
-      .text = kind.text,
-      .schema = kind.schema,
-      .read = [read = kind.read](const Node& node,
-                                 ReadContext& context) -> std::optional<std::optional<V>> {
-        std::optional<V> value = read(node, context);
-        if (!value) return std::nullopt;
-        return std::optional<std::optional<V>>(std::in_place, std::move(value));
-      },
-      .write = [write = kind.write](const std::optional<V>& value) -> Json {
-        return value ? write(*value) : Json(nullptr);
-      },
-      .tables = kind.tables,
-  };
+Kind<std::optional<V>> maybe(const Kind<V>& kind) {
+  using Optional = std::optional<V>;
+  return Kind<Optional>(maybe_kind(
+      kind, {[](void* optional) { static_cast<Optional*>(optional)->reset(); },
+             [](void* optional) -> void* { return &static_cast<Optional*>(optional)->emplace(); },
+             [](const void* optional) -> const void* {
+               const auto& value = *static_cast<const Optional*>(optional);
+               return value ? &*value : nullptr;
+             }}));
 }
+
+struct VariantAccess {
+  void* (*emplace_first)(void* variant);
+  void* (*emplace_second)(void* variant);
+  const void* (*first)(const void* variant);  // null: it holds the other one
+  const void* (*second)(const void* variant);
+};
+AnyKind either_kind(bool (*suits)(const Node&), const AnyKind& first, const AnyKind& second,
+                    VariantAccess access);
 
 template <class A, class B>
-Kind<std::variant<A, B>> either(std::function<bool(const Node&)> suits, Kind<A> first,
-                                Kind<B> second) {
-  using Value = std::variant<A, B>;
-  return {
-      .text = first.text + ", or " + second.text,
-      .schema = any_of(first.schema, second.schema),
-      .read = [suits, read_first = first.read, read_second = second.read](
-                  const Node& node, ReadContext& context) -> std::optional<Value> {
-        if (suits(node)) {
-          std::optional<A> value = read_first(node, context);
-          if (!value) return std::nullopt;
-          return Value(std::in_place_index<0>, std::move(*value));
-        }
-        std::optional<B> value = read_second(node, context);
-        if (!value) return std::nullopt;
-        return Value(std::in_place_index<1>, std::move(*value));
-      },
-      .write = [write_first = first.write,
-                write_second = second.write](const Value& value) -> Json {
-        return value.index() == 0 ? write_first(std::get<0>(value))
-                                  : write_second(std::get<1>(value));
-      },
-      .tables = joined(first.tables, second.tables),
-  };
-}
-
-template <class V, class From, class To>
-Kind<std::invoke_result_t<From, V>> map(Kind<V> kind, From from, To to) {
-  using W = std::invoke_result_t<From, V>;
-  return {
-      .text = kind.text,
-      .schema = kind.schema,
-      .read = [read = kind.read, from](const Node& node, ReadContext& context) -> std::optional<W> {
-        std::optional<V> value = read(node, context);
-        if (!value) return std::nullopt;
-        return from(std::move(*value));
-      },
-      .write = [write = kind.write, to](const W& value) -> Json { return write(to(value)); },
-      .tables = kind.tables,
-  };
+Kind<std::variant<A, B>> either(bool (*suits)(const Node&), const Kind<A>& first,
+                                const Kind<B>& second) {
+  using Variant = std::variant<A, B>;
+  return Kind<Variant>(either_kind(suits, first, second,
+                                   {[](void* variant) -> void* {
+                                      return &static_cast<Variant*>(variant)->template emplace<0>();
+                                    },
+                                    [](void* variant) -> void* {
+                                      return &static_cast<Variant*>(variant)->template emplace<1>();
+                                    },
+                                    [](const void* variant) -> const void* {
+                                      return std::get_if<0>(static_cast<const Variant*>(variant));
+                                    },
+                                    [](const void* variant) -> const void* {
+                                      return std::get_if<1>(static_cast<const Variant*>(variant));
+                                    }}));
 }
 
 }  // namespace twincraft

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "compiler/ir/number.h"
+#include "compiler/schema/table_info.h"
 
 namespace twincraft {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "compiler/schema/table.h"
+#include "compiler/schema/reading.h"
 
 namespace twincraft {
 

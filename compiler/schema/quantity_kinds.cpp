@@ -4,7 +4,8 @@
 
 #include <cmath>
 
-#include "compiler/schema/table.h"
+#include "compiler/schema/own_kind.h"
+#include "compiler/schema/table_info.h"
 
 namespace twincraft {
 namespace {
@@ -147,7 +148,7 @@ std::optional<Matrix3d> read_inertia(const Node& node, ReadContext& context) {
 
 /// A quantity of which nobody has asked yet whether it is usual.
 Kind<double> unjudged_quantity(SiUnit si, Range range) {
-  return {
+  return own_kind<double>({
       .text = fmt::format("quantity [{}]{}", si, range_text(range)),
       .schema = quantity_schema(std::string(si), range),
       .read = [unit = std::string(si), range](const Node& node,
@@ -160,19 +161,34 @@ Kind<double> unjudged_quantity(SiUnit si, Range range) {
         return value;
       },
       .write = [](const double& value) -> Json { return value; },
-  };
+  });
 }
+
+class JudgedKind : public KindBody {
+ public:
+  JudgedKind(const AnyKind& kind, std::string unit, const Usual& usual)
+      : KindBody(kind.text(), kind.schema(), kind.tables()),
+        kind_(kind),
+        unit_(std::move(unit)),
+        usual_(usual) {}
+
+  bool read(void* value, const Node& node, ReadContext& context) const override {
+    if (!kind_.read_into(value, node, context)) return false;
+    judge_bare_numbers(scalars_of(node), unit_, usual_, context);
+    return true;
+  }
+  Json write(const void* value) const override { return kind_.write_from(value); }
+
+ private:
+  AnyKind kind_;
+  std::string unit_;
+  Usual usual_;
+};
 
 /// `kind`, whose values have their plain numbers judged together.
 template <class V>
-Kind<V> judged(Kind<V> kind, SiUnit si, const Usual& usual) {
-  kind.read = [read = std::move(kind.read), unit = std::string(si), usual](
-                  const Node& node, ReadContext& context) -> std::optional<V> {
-    std::optional<V> value = read(node, context);
-    if (value) judge_bare_numbers(scalars_of(node), unit, usual, context);
-    return value;
-  };
-  return kind;
+Kind<V> judged(const Kind<V>& kind, SiUnit si, const Usual& usual) {
+  return Kind<V>(AnyKind(std::make_shared<JudgedKind>(kind, std::string(si), usual)));
 }
 
 Json write_vector(const Vector3d& vector) {
@@ -256,7 +272,7 @@ Kind<std::vector<double>> quantities(SiUnit si, std::size_t count) {
 
 Kind<Vector3d> vector3(SiUnit si) {
   const std::string unit(si);
-  Kind<Vector3d> kind{
+  const Kind<Vector3d> kind = own_kind<Vector3d>({
       .text = fmt::format("three quantities [{}]", si),
       .schema = listing_schema(list_schema(quantity_schema(unit, Range::kAny), 3, 3), si),
       .read = [unit](const Node& node, ReadContext& context) -> std::optional<Vector3d> {
@@ -269,39 +285,39 @@ Kind<Vector3d> vector3(SiUnit si) {
                           read_entry);
       },
       .write = write_vector,
-  };
-  return judged(std::move(kind), si, usual_of(si));  // of `{value: .., unit: ..}` nothing is bare
+  });
+  return judged(kind, si, usual_of(si));  // of `{value: .., unit: ..}` nothing is bare
 }
 
 Kind<Vector3d> direction() {
-  return {
+  return own_kind<Vector3d>({
       .text = "direction [x, y, z]",
       .schema = list_schema(number_schema(Range::kAny), 3, 3),
       .read = read_direction,
       .write = write_vector,
-  };
+  });
 }
 
 Kind<Matrix3d> inertia() {
   const Json row = list_schema(quantity_schema("kg m2", Range::kAny), 3, 3);
-  Kind<Matrix3d> kind{
+  const Kind<Matrix3d> kind = own_kind<Matrix3d>({
       .text = "[Ixx, Iyy, Izz] or symmetric 3x3 [kg m2]",
       .schema = listing_schema(any_of(row, list_schema(row, 3, 3)), "kg m2"),
       .read = read_inertia,
       .write = write_inertia,
-  };
-  return judged(std::move(kind), "kg m2", {});
+  });
+  return judged(kind, "kg m2", {});
 }
 
 Kind<Matrix3d> matrix3() {
-  return {
+  return own_kind<Matrix3d>({
       .text = "three rows of three numbers",
       .schema = list_schema(list_schema(number_schema(Range::kAny), 3, 3), 3, 3),
       .read = [](const Node& node, ReadContext& context) -> std::optional<Matrix3d> {
         return read_rows(node, context, read_number);
       },
       .write = write_rows,
-  };
+  });
 }
 
 }  // namespace twincraft

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "compiler/schema/kind.h"
+#include "compiler/schema/own_kind.h"
 
 namespace twincraft {
 namespace {
@@ -185,10 +185,10 @@ Json pair_list_schema(const Json& first, const Json& second) {
 }  // namespace
 
 Kind<Schedule> schedule(SiUnit si, Range range) {
-  const Json value = quantity(si, range).schema;
-  return {
+  const Json value = quantity(si, range).schema();
+  return own_kind<Schedule>({
       .text = fmt::format("quantity [{}]{} or schedule", si, range_text(range)),
-      .schema = any_of(value, pair_list_schema(quantity("s").schema, value)),
+      .schema = any_of(value, pair_list_schema(quantity("s").schema(), value)),
       .read = [values = Values{std::string(si), {}, range}](
                   const Node& node, ReadContext& context) -> std::optional<Schedule> {
         std::optional<Schedule> schedule = read_schedule(node, values, context);
@@ -196,13 +196,13 @@ Kind<Schedule> schedule(SiUnit si, Range range) {
         return schedule;
       },
       .write = write_schedule,
-  };
+  });
 }
 
 Kind<std::array<Schedule, 3>> schedule3(SiUnit si) {
-  return {
+  return own_kind<std::array<Schedule, 3>>({
       .text = fmt::format("three quantities [{}] or schedules", si),
-      .schema = listing_schema(list_schema(schedule(si).schema, 3, 3), si),
+      .schema = listing_schema(list_schema(schedule(si).schema(), 3, 3), si),
       .read = [unit = std::string(si)](
                   const Node& node,
                   ReadContext& context) { return read_schedule3(node, unit, context); },
@@ -211,17 +211,17 @@ Kind<std::array<Schedule, 3>> schedule3(SiUnit si) {
         for (const Schedule& component : components) list.push_back(write_schedule(component));
         return list;
       },
-  };
+  });
 }
 
 Kind<std::vector<Schedule::Interval>> intervals() {
-  const Json time = quantity("s").schema;
-  return {
+  const Json time = quantity("s").schema();
+  return own_kind<std::vector<Schedule::Interval>>({
       .text = "list of intervals [start, end] [s]",
       .schema = pair_list_schema(time, time),
       .read = read_intervals,
       .write = write_intervals,
-  };
+  });
 }
 
 }  // namespace twincraft

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 
+#include "compiler/schema/table_info.h"
+
 namespace twincraft {
 namespace {
 

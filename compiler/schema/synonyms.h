@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "compiler/schema/table.h"
+#include "compiler/schema/reading.h"
 
 namespace twincraft {
 

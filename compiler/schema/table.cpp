@@ -8,7 +8,9 @@
 #include <cctype>
 #include <stdexcept>
 
+#include "compiler/schema/own_kind.h"
 #include "compiler/schema/synonyms.h"
+#include "compiler/schema/table_info.h"
 
 namespace twincraft {
 namespace {
@@ -149,13 +151,6 @@ std::string own_name(const Node& map) {
 
 }  // namespace
 
-FieldInfo::FieldInfo() = default;
-FieldInfo::FieldInfo(const FieldInfo&) = default;
-FieldInfo::FieldInfo(FieldInfo&&) noexcept = default;
-FieldInfo& FieldInfo::operator=(const FieldInfo&) = default;
-FieldInfo& FieldInfo::operator=(FieldInfo&&) noexcept = default;
-FieldInfo::~FieldInfo() = default;
-
 FieldInfo required_field(std::string key, std::string doc, std::string kind, Json schema,
                          std::vector<const TableInfo*> tables) {
   FieldInfo field;
@@ -251,5 +246,90 @@ bool is_nothing(const Json& value) {
   return value.is_null() || (value.is_string() && value.get_ref<const std::string&>().empty()) ||
          (value.is_structured() && value.empty());
 }
+
+struct AnyTable::Body {
+  struct Member {
+    AnyKind kind;
+    std::size_t offset;  // in the struct
+  };
+  TableInfo info;
+  std::vector<Member> members;  // parallel to info.fields
+  Access access;
+};
+
+AnyTable::AnyTable(std::string_view name, std::string_view doc, Access access)
+    : body_(std::make_shared<Body>()) {
+  body_->info.name = name;
+  body_->info.doc = doc;
+  body_->access = access;
+}
+AnyTable::AnyTable(const AnyTable&) = default;
+AnyTable& AnyTable::operator=(const AnyTable&) = default;
+AnyTable::~AnyTable() = default;
+
+const TableInfo& AnyTable::info() const { return body_->info; }
+const std::string& AnyTable::name() const { return body_->info.name; }
+Json AnyTable::schema() const { return schema_of(body_->info); }
+
+void AnyTable::add(const AnyField& field, const void* defaults) {
+  const AnyKind& kind = field.kind;
+  FieldInfo info = required_field(std::string(field.key), std::string(field.doc), kind.text(),
+                                  kind.schema(), kind.tables());
+  if (!field.required)
+    make_optional(info, kind.write_from(static_cast<const char*>(defaults) + field.offset));
+  body_->info.fields.push_back(std::move(info));
+  body_->members.push_back({kind, field.offset});
+}
+
+void AnyTable::add_group(std::vector<std::string> keys, bool required) {
+  twincraft::add_group(body_->info, {.keys = std::move(keys), .required = required});
+}
+
+bool AnyTable::fill(void* value, const Node& node, const ReadContext& outer) const {
+  const TableInfo& table = body_->info;
+  char* const begin = static_cast<char*>(value);
+  if (const auto written = body_->access.written)
+    reinterpret_cast<Written*>(begin + *written)->node = &node;
+  bool good = check_keys(table, node, outer);
+  for (std::size_t i = 0; i < table.fields.size(); ++i) {
+    const std::string& key = table.fields[i].key;
+    const Node* item = node.find(key);
+    if (item == nullptr) continue;
+    ReadContext context = field_context(table, key, node, outer);
+    const Body::Member& member = body_->members[i];
+    good = member.kind.read_into(begin + member.offset, *item, context) && good;
+  }
+  return good;
+}
+
+void AnyTable::reset(void* value) const { body_->access.reset(value); }
+
+Json AnyTable::write_from(const void* value) const {
+  std::vector<Json> items;
+  for (const Body::Member& member : body_->members)
+    items.push_back(member.kind.write_from(static_cast<const char*>(value) + member.offset));
+  return written_map(body_->info, std::move(items));
+}
+
+namespace {
+
+class ObjectKind : public KindBody {
+ public:
+  explicit ObjectKind(const AnyTable& table)
+      : KindBody(table.name(), table.schema(), {&table.info()}), table_(table) {}
+
+  bool read(void* value, const Node& node, ReadContext& context) const override {
+    table_.reset(value);
+    return table_.fill(value, node, context);
+  }
+  Json write(const void* value) const override { return table_.write_from(value); }
+
+ private:
+  AnyTable table_;
+};
+
+}  // namespace
+
+AnyKind object_kind(const AnyTable& table) { return AnyKind(std::make_shared<ObjectKind>(table)); }
 
 }  // namespace twincraft

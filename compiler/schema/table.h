@@ -14,6 +14,16 @@
 // .exactly_one_of({"quaternion", "mrp", "euler"});`. Tested by tests/compiler/schema_test.cpp.
 #pragma once
 
+#include <cstddef>
+#include <initializer_list>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
 #include "compiler/schema/kind.h"
 
 namespace twincraft {
@@ -29,114 +39,88 @@ struct Written {
   bool has(std::string_view key) const;
 };
 
-/// What the language says of one key, whatever member it fills. Every table copies some: copying
-/// and destroying them is compiled once.
-struct FieldInfo {
-  FieldInfo();
-  FieldInfo(const FieldInfo&);
-  FieldInfo(FieldInfo&&) noexcept;
-  FieldInfo& operator=(const FieldInfo&);
-  FieldInfo& operator=(FieldInfo&&) noexcept;
-  ~FieldInfo();
-
-  std::string key;
-  std::string doc;   // one or two sentences: meaning, and the default in words if it has no value
-  std::string kind;  // Kind::text
-  bool required = false;
-  Json schema;
-  std::optional<Json> default_value;  // as it would be written; nothing: absent or required
-  std::vector<const TableInfo*> tables;
-};
-
-/// Keys of one map of which only one may be written, or exactly one must be.
-struct KeyGroup {
-  std::vector<std::string> keys;
+/// A key and the member that it fills. Only lives until its table has taken it in.
+struct AnyField {
+  std::string_view key;
+  std::string_view doc;
+  AnyKind kind;
+  std::size_t offset = 0;  // of the member in its struct
   bool required = false;
 };
 
-/// What the language says of one sort of map, whatever struct it fills.
-struct TableInfo {
-  std::string name;  // "wheel": how messages call one of these
-  std::string doc;
-  std::vector<FieldInfo> fields;
-  std::vector<KeyGroup> groups;
-};
-
 template <class T>
-struct FieldAccess {
-  std::function<bool(const Node&, ReadContext&, T&)> read;  // whether there was no fault
-  std::function<Json(const T&)> write;                      // null: nothing to write
-};
-
-template <class T>
-struct Field {
-  FieldInfo info;
-  FieldAccess<T> access;
-};
+struct Field : AnyField {};
 
 /// Must be written.
 template <class T, class V>
-Field<T> required(std::string key, V T::*member, Kind<V> kind, std::string doc);
+Field<T> required(std::string_view key, V T::*member, const Kind<V>& kind, std::string_view doc);
 /// May be left out: the member's initialiser is the default. A std::optional member (with a
 /// maybe(...) kind), an empty list and an empty text have none.
 template <class T, class V>
-Field<T> optional(std::string key, V T::*member, Kind<V> kind, std::string doc);
+Field<T> optional(std::string_view key, V T::*member, const Kind<V>& kind, std::string_view doc);
+
+/// A table of which the struct is not known: all that is compiled once. Copies share one body.
+class AnyTable {
+ public:
+  /// What must be known of the struct.
+  struct Access {
+    std::optional<std::size_t> written;  // offset of its base Written; nothing: it has none
+    void (*reset)(void* value);          // all members to their initialisers
+  };
+  AnyTable(std::string_view name, std::string_view doc, Access access);
+  AnyTable(const AnyTable&);
+  AnyTable& operator=(const AnyTable&);
+  ~AnyTable();
+
+  const TableInfo& info() const;
+  const std::string& name() const;
+  Json schema() const;  // a closed object with descriptions, defaults and required keys
+
+  /// Read the members that are written; the others stay. @return whether there was no fault
+  bool fill(void* value, const Node& node, const ReadContext& outer) const;
+  void reset(void* value) const;
+  Json write_from(const void* value) const;
+
+ protected:
+  /// @param defaults  a value with all members at their initialisers
+  void add(const AnyField& field, const void* defaults);
+  void add_group(std::vector<std::string> keys, bool required);
+
+ private:
+  struct Body;
+  std::shared_ptr<Body> body_;
+};
 
 template <class T>
-class Table {
+class Table : public AnyTable {
  public:
-  Table(std::string name, std::string doc, std::vector<Field<T>> fields);
+  Table(std::string_view name, std::string_view doc, std::initializer_list<Field<T>> fields);
+  Table(std::string_view name, std::string_view doc, std::span<const Field<T>> fields);
 
   /// Exactly one of these keys must be written; each of them is an optional field.
   Table exactly_one_of(std::vector<std::string> keys) &&;
   /// At most one of these keys may be written.
   Table at_most_one_of(std::vector<std::string> keys) &&;
 
-  const TableInfo& info() const { return info_; }
-  const std::string& name() const { return info_.name; }
-  const std::string& doc() const { return info_.doc; }
-  const std::vector<FieldInfo>& fields() const { return info_.fields; }
-
   /// Read a map: unknown keys (with the nearest known one as hint), missing required keys, and
   /// every fault of every value are reported. The struct is complete only when no error was added.
   T read(const Node& node, Diagnostics& diagnostics) const;
   /// The same for a map inside another one; nothing when there was a fault.
   std::optional<T> read_inside(const Node& node, const ReadContext& outer) const;
-  Json schema() const;  // a closed object with descriptions, defaults and required keys
-  Json write(const T& value) const;
-
- private:
-  bool fill(T& value, const Node& node, const ReadContext& outer) const;
-
-  TableInfo info_;
-  std::vector<FieldAccess<T>> access_;  // parallel to info_.fields
+  /// A template, so that Json need be complete for callers alone.
+  template <class Result = Json>
+  Result write(const T& value) const {
+    return write_from(&value);
+  }
 };
 
-/// A nested map. The table must outlive the kind, as function-local statics do.
-template <class T>
-Kind<T> object(const Table<T>& table);
-template <class T>
-Kind<T> object(const Table<T>&& table) = delete;
+AnyKind object_kind(const AnyTable& table);
 
-/// "wheel `rw_x`", "hinge of panel `wing_p`", "hub": how messages call this map.
-std::string label_of(const TableInfo& info, const Node& map, const ReadContext& outer);
-/// Whether `map` is one and has the keys it should; what is wrong is reported.
-bool check_keys(const TableInfo& info, const Node& map, const ReadContext& outer);
-/// The context of the value of `key` in `map`.
-ReadContext field_context(const TableInfo& info, const std::string& key, const Node& map,
-                          const ReadContext& outer);
-FieldInfo required_field(std::string key, std::string doc, std::string kind, Json schema,
-                         std::vector<const TableInfo*> tables);
-/// The field may be left out, which means `default_value` unless that is nothing.
-void make_optional(FieldInfo& field, Json default_value);
-/// Add a group; its keys must be fields that are not required by themselves.
-void add_group(TableInfo& info, KeyGroup group);
-Json schema_of(const TableInfo& info);
-/// The map with these values of all fields, less what is nothing and the defaults whose key
-/// excludes one that is there: reading it again would find both.
-Json written_map(const TableInfo& info, std::vector<Json> values);
-/// Null, "", [] and {}: values that are left out.
-bool is_nothing(const Json& value);
+/// A nested map.
+template <class T>
+Kind<T> object(const Table<T>& table) {
+  return Kind<T>(object_kind(table));
+}
 
 }  // namespace twincraft
 

@@ -162,7 +162,7 @@ Agreement lower(const AgreementSpec& spec) {
 }
 
 Kind<ReferenceKind> reference_kind() {
-  std::vector<std::pair<std::string, ReferenceKind>> words;
+  std::vector<std::pair<std::string_view, ReferenceKind>> words;
   for (const ReferenceKind kind :
        {ReferenceKind::kKepler, ReferenceKind::kSpinUp, ReferenceKind::kTorqueFree,
         ReferenceKind::kTsiolkovsky, ReferenceKind::kStored})

@@ -30,11 +30,11 @@ const Table<GravitySpec>& gravity_table() {
 }  // namespace
 
 Kind<GravityLaw> gravity_law() {
-  std::vector<std::pair<std::string, GravityLaw>> words;
+  std::vector<std::pair<std::string_view, GravityLaw>> words;
   for (const GravityLaw law :
        {GravityLaw::kSystemCom, GravityLaw::kBodyCom, GravityLaw::kBodyGradient})
     words.emplace_back(word_of(law), law);
-  return one_of(std::move(words));
+  return one_of(words);
 }
 
 const Table<EnvironmentSpec>& environment_table() {

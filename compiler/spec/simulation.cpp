@@ -85,7 +85,8 @@ const Table<BlockTolerancesSpec>& blocks_table() {
   };
   static const Table<BlockTolerancesSpec> table{
       "block tolerances",
-      "Error control per block of the state: a number for both parts, or the parts.", fields()};
+      "Error control per block of the state: a number for both parts, or the parts.",
+      std::span<const Field<BlockTolerancesSpec>>(fields())};
   return table;
 }
 

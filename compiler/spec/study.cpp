@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "compiler/ir/number.h"
+#include "compiler/schema/own_kind.h"
 
 namespace twincraft {
 namespace {
@@ -37,12 +38,12 @@ Json json_of(const Node& node) {
 
 /// Whatever the path that is set takes; it is read when the member is.
 Kind<Node> any_value() {
-  return {
+  return own_kind<Node>({
       .text = "value",
       .schema = Json::object(),
       .read = [](const Node& node, ReadContext&) -> std::optional<Node> { return node; },
       .write = json_of,
-  };
+  });
 }
 
 Kind<Method> method() {

@@ -5,6 +5,7 @@
 
 #include "compiler/schema/manual.h"
 #include "compiler/schema/partial.h"
+#include "compiler/schema/table_info.h"
 #include "tests/compiler/schema_reading.h"
 
 namespace twincraft {

@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "compiler/schema/table_info.h"
+
 namespace twincraft {
 namespace {
 
