@@ -23,7 +23,7 @@ struct CompileRequest {
   std::optional<std::string> text = {};  // of the spec, when it is no file; `file` is its name then
 };
 
-/// Names of targets, of compiler/emit/target.h.
+/// Names of targets, each of them in compiler/emit/target.h.
 using Wanted = std::vector<std::string_view>;
 
 /// Called before each member of a study that is checked: how many are done, and of how many.
@@ -34,8 +34,8 @@ using MemberProgress = std::function<void(std::size_t done, std::size_t planned)
 /// once, each with diagnostics of its own; nothing compiled is kept.
 ///
 /// What is compiled holds the wanted targets and no others; it is nothing where the spec, as
-/// changed, has errors. All faults of a stage are
-/// reported; a later stage runs only after an earlier one without errors.
+/// changed, has errors. All faults of a stage are reported; a later stage runs only after an
+/// earlier one without errors.
 class LoadedSpec {
  public:
   /// The spec itself. @throws InternalError when the two halves of the model are not one machine;
