@@ -19,8 +19,8 @@
 #include <span>
 #include <vector>
 
-#include "runtime/bsm/field.h"
 #include "runtime/bsm/law.h"
+#include "runtime/bsm/parts.h"
 #include "runtime/bsm/plan.h"
 
 namespace twincraft::bsm::TWINCRAFT_KERNEL {

@@ -3,9 +3,11 @@
 // Tested by tests/runtime/bsm_test.cpp.
 #pragma once
 
-#include "runtime/bsm/linear.h"
+#include "runtime/scalar/linear.h"
 
 namespace twincraft::bsm::TWINCRAFT_KERNEL {
+
+using namespace ::twincraft::TWINCRAFT_KERNEL;
 
 /// Modified Rodrigues parameters sigma_BN: three numbers, switched to their shadow outside the
 /// unit ball.

@@ -16,13 +16,15 @@
 // One effector on the hub gives the published contributions A, B, C, D, vT, vR. Tails of the tree
 // whose hinges are parallel take the same steps in the plane (chain.h). Rates enter only through
 // omega and offsets between neighbouring joints, so neither the orbital velocity nor the distance
-// to the hub ever costs a digit. Gravity is felt in a frame that falls with the hub (field.h).
-// Tested by tests/runtime/bsm_test.cpp (dense oracle, published blocks).
+// to the hub ever costs a digit. Gravity is felt in a frame that falls with the hub
+// (runtime/forces/field.h). Tested by tests/runtime/bsm_test.cpp (dense oracle, published blocks).
 #pragma once
 
-#include "runtime/bsm/linear.h"
+#include "runtime/scalar/linear.h"
 
 namespace twincraft::bsm::TWINCRAFT_KERNEL {
+
+using namespace ::twincraft::TWINCRAFT_KERNEL;
 
 /// The force and torque a subtree asks of its parent, about its origin.
 ///   n = J omegaDot + H a + n0,  f = H^T omegaDot + M a + f0

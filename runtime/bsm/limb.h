@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "runtime/bsm/chain.h"
-#include "runtime/bsm/field.h"
 #include "runtime/bsm/law.h"
+#include "runtime/bsm/parts.h"
 #include "runtime/bsm/plan.h"
 
 namespace twincraft::bsm::TWINCRAFT_KERNEL {

@@ -35,25 +35,16 @@ bool has_elements(GravityLaw law) {
 }
 
 /// In a falling frame an element at the hub's origin feels nothing but the gradient of its own.
-std::vector<GravityElement> elements_of(const Link& link, GravityLaw law) {
-  std::vector<GravityElement> elements;
+std::vector<ElementNow> elements_of(const Link& link, GravityLaw law) {
+  std::vector<ElementNow> elements;
   if (!has_elements(law)) return elements;
   for (const MassElement& e : link.elements) {
     const bool falls_with_hub =
         link.parent < 0 && law == GravityLaw::kBodyCom && e.r_EL_L.isZero(0.0);
     if (e.mass <= 0.0 || falls_with_hub) continue;
-    elements.push_back({e.mass, e.r_EL_L, e.I_PntE_L, e.tank, e.mass, e.I_PntE_L});
+    elements.push_back({e});
   }
   return elements;
-}
-
-void scale_elements(std::span<const double> shares, std::vector<GravityElement>& elements) {
-  for (GravityElement& element : elements) {
-    if (element.tank < 0) continue;
-    const double share = shares[static_cast<std::size_t>(element.tank)];
-    element.mass = share * element.full_mass;
-    element.I_PntE_L = share * element.full_I;
-  }
 }
 
 /// What decides about the planar path.
@@ -99,7 +90,7 @@ std::optional<PlanarLinkPlan> planar_link(const Candidates& of, std::size_t i,
   plan.damping = link.damping;
   plan.rest = link.rest;
   plan.elements = elements_of(of.assembly.links[i], of.law);
-  for (GravityElement& element : plan.elements) element.r_EL = dcm_CL * element.r_EL;
+  for (ElementNow& element : plan.elements) element.full.r_EL_L = dcm_CL * element.full.r_EL_L;
   return plan;
 }
 
@@ -240,9 +231,10 @@ std::size_t Plan::planar_links() const {
 
 void Plan::set_shares(std::span<const double> shares) {
   bsm::set_shares(tree, shares);
-  scale_elements(shares, hub.elements);
+  for (ElementNow& element : hub.elements) element.drain(shares);
   for (LimbPlan& limb : limbs) {
-    for (LinkPlan& link : limb.links) scale_elements(shares, link.elements);
+    for (LinkPlan& link : limb.links)
+      for (ElementNow& element : link.elements) element.drain(shares);
   }
 }
 

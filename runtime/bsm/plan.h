@@ -12,26 +12,17 @@
 #include "compiler/ir/inputs.h"
 #include "compiler/ir/model.h"
 #include "runtime/bsm/tree.h"
+#include "runtime/forces/share.h"
 
 namespace twincraft::bsm {
-
-/// What gravity pulls on.
-struct GravityElement {
-  double mass = 0.0;  // [kg]
-  Vector3d r_EL;      // [m] from the link's origin; link axes, of a chain: chain axes at angle zero
-  Matrix3d I_PntE_L;  // [kg m^2] about its own centre
-  int tank = -1;
-  double full_mass = 0.0;
-  Matrix3d full_I;
-};
 
 struct LinkPlan {
   int link = 0;     // in the assembly
   int parent = -1;  // in the limb; -1: the hub
   bool slides = false;
-  int damped_by_cosine_of = -1;  // in the limb; -1: of none
-  std::vector<GravityElement> elements;
-  std::vector<int> rotors;  // in the assembly
+  int damped_by_cosine_of = -1;      // in the limb; -1: of none
+  std::vector<ElementNow> elements;  // what gravity pulls on
+  std::vector<int> rotors;           // in the assembly
 };
 
 struct PlanarLinkPlan {
@@ -42,7 +33,7 @@ struct PlanarLinkPlan {
   std::array<double, 3> G{};             // [kg m^2] in-plane inertia about the hinge: xx, zz, xz
   double J = 0.0;                        // [kg m^2] about s through the hinge
   double stiffness = 0.0, damping = 0.0, rest = 0.0;
-  std::vector<GravityElement> elements;
+  std::vector<ElementNow> elements;  // r_EL_L in chain axes at angle zero
 };
 
 struct ChainPlan {

@@ -7,8 +7,8 @@
 
 #include <span>
 
-#include "runtime/bsm/field.h"
 #include "runtime/bsm/law.h"
+#include "runtime/bsm/parts.h"
 #include "runtime/bsm/plan.h"
 
 namespace twincraft::bsm::TWINCRAFT_KERNEL {

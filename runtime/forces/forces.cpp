@@ -4,7 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/forces/field.h"
+
 namespace twincraft {
+
+using namespace TWINCRAFT_KERNEL;
+
 namespace {
 
 bool is_per_body(GravityLaw law) {
@@ -12,15 +17,6 @@ bool is_per_body(GravityLaw law) {
 }
 
 }  // namespace
-
-Vector3d gravity_difference(double mu, const Vector3d& r, const Vector3d& x) {
-  const double r2 = r.squaredNorm();
-  const double q = x.dot(x + 2.0 * r) / r2;  // |r + x|^2 = r^2 (1 + q)
-  const double s3 = (1.0 + q) * std::sqrt(1.0 + q);
-  // 1 - (1 + q)^(-3/2), as a quotient that keeps all digits of a small q.
-  const double shrink = q * (3.0 + q * (3.0 + q)) / (s3 * (s3 + 1.0));
-  return (-mu / (r2 * std::sqrt(r2))) * (x - shrink * (r + x));
-}
 
 WrenchSums sum_up(std::span<const Wrench> wrenches, std::span<const LinkPose> links,
                   std::span<const LinkRate> rates) {
@@ -43,14 +39,13 @@ ForceModel::ForceModel(const Model& model, GravityLaw law,
   for (std::size_t link = 0; link < elements.size(); ++link) {
     for (const MassElement& element : elements[link]) {
       if (element.mass <= 0.0) continue;
-      elements_.push_back({static_cast<int>(link), element.mass, element.r_EL_L, element.I_PntE_L,
-                           element.tank, element.mass, element.I_PntE_L});
+      elements_.push_back({{element}, link});
       mass_ += element.mass;
     }
   }
   const bool all_at_hub_origin =
       std::all_of(elements_.begin(), elements_.end(),
-                  [](const Element& e) { return e.link == 0 && e.r_EL_L.isZero(0.0); });
+                  [](const Element& e) { return e.link == 0 && e.full.r_EL_L.isZero(0.0); });
   gravity_acts_ = law == GravityLaw::kBodyGradient ||
                   (law == GravityLaw::kBodyCom && !all_at_hub_origin) ||
                   (law != GravityLaw::kNone && frame == FieldFrame::kInertial);
@@ -78,31 +73,19 @@ void ForceModel::set_shares(std::span<const double> shares) {
   if (!needs_elements_) return;
   mass_ = 0.0;
   for (Element& e : elements_) {
-    if (e.tank >= 0) {
-      const double share = shares[static_cast<std::size_t>(e.tank)];
-      e.mass = share * e.full_mass;
-      e.I_PntE_L = share * e.full_I;
-    }
-    mass_ += e.mass;
+    e.drain(shares);
+    mass_ += e.mass();
   }
 }
 
 Vector3d ForceModel::center_of_mass(std::span<const LinkPose> links) const {
   Vector3d moment = Vector3d::Zero();
-  for (const Element& e : elements_) {
-    const LinkPose& pose = links[static_cast<std::size_t>(e.link)];
-    moment += e.mass * (pose.r_LB_W + pose.dcm_WL * e.r_EL_L);
-  }
+  for (const Element& e : elements_) moment += e.mass() * place_of(e, links);
   return moment / mass_;
 }
 
-/// Hughes, Spacecraft Attitude Dynamics: 3 mu/r^3 rhat x (I rhat), about the element's own centre.
-Vector3d ForceModel::gradient_torque(const Element& element, const Vector3d& r_EN_W,
-                                     const Matrix3d& dcm_WL) const {
-  const Vector3d r_EN_L = dcm_WL.transpose() * r_EN_W;
-  const double r2 = r_EN_L.squaredNorm();
-  const Vector3d torque_L = r_EN_L.cross(element.I_PntE_L * r_EN_L);
-  return dcm_WL * (torque_L * (3.0 * mu_ / (r2 * r2 * std::sqrt(r2))));
+Vector3d ForceModel::place_of(const Element& e, std::span<const LinkPose> links) {
+  return links[e.link].r_LB_W + links[e.link].dcm_WL * e.full.r_EL_L;
 }
 
 void ForceModel::apply_gravity(const Vector3d& r_BN_W, std::span<const LinkPose> links,
@@ -111,21 +94,25 @@ void ForceModel::apply_gravity(const Vector3d& r_BN_W, std::span<const LinkPose>
   const bool uniform = law_ == GravityLaw::kSystemCom;
   const Vector3d g_system =
       uniform ? point_gravity(mu_, r_BN_W + center_of_mass(links)) : Vector3d::Zero();
+  const Field<double> field(mu_, vec(r_BN_W), law_ == GravityLaw::kBodyGradient);
   for (const Element& e : elements_) {
-    const auto link = static_cast<std::size_t>(e.link);
-    const Vector3d r_EB_W = links[link].r_LB_W + links[link].dcm_WL * e.r_EL_L;
+    Wrench& wrench = wrenches[e.link];
+    const Vector3d r_EB_W = place_of(e, links);
     Vector3d g = g_system;
     if (!uniform) {
-      g = frame_ == FieldFrame::kFalling ? gravity_difference(mu_, r_BN_W, r_EB_W)
+      g = frame_ == FieldFrame::kFalling ? eigen(field.difference(vec(r_EB_W)))
                                          : point_gravity(mu_, r_BN_W + r_EB_W);
     }
-    const Vector3d force_W = e.mass * g;
-    wrenches[link].force_W += force_W;
-    wrenches[link].torque_PntB_W += r_EB_W.cross(force_W);
-    if (law_ != GravityLaw::kBodyGradient) continue;
-    const Vector3d torque_W = gradient_torque(e, r_BN_W + r_EB_W, links[link].dcm_WL);
-    wrenches[link].torque_PntB_W += torque_W;
-    if (!rates.empty()) work.power += torque_W.dot(rates[link].omega_LN_W);
+    const Vector3d force_W = e.mass() * g;
+    wrench.force_W += force_W;
+    wrench.torque_PntB_W += r_EB_W.cross(force_W);
+    if (!field.has_gradient) continue;
+    Sym<double> I_L;
+    set_lane(I_L, 0, e.I_PntE_L());
+    const Vector3d torque_W =
+        eigen(field.gradient_torque(vec(r_EB_W), I_L.turned(mat(links[e.link].dcm_WL))));
+    wrench.torque_PntB_W += torque_W;
+    if (!rates.empty()) work.power += torque_W.dot(rates[e.link].omega_LN_W);
   }
 }
 
@@ -176,10 +163,7 @@ double ForceModel::potential(const Vector3d& r_BN_W, std::span<const LinkPose> l
   if (law_ == GravityLaw::kNone) return 0.0;
   if (!is_per_body(law_)) return -mu_ * mass_ / (r_BN_W + center_of_mass(links)).norm();
   double sum = 0.0;
-  for (const Element& e : elements_) {
-    const LinkPose& pose = links[static_cast<std::size_t>(e.link)];
-    sum -= mu_ * e.mass / (r_BN_W + pose.r_LB_W + pose.dcm_WL * e.r_EL_L).norm();
-  }
+  for (const Element& e : elements_) sum -= mu_ * e.mass() / (r_BN_W + place_of(e, links)).norm();
   return sum;
 }
 
@@ -191,10 +175,9 @@ double ForceModel::potential_rate(const Vector3d& r_BN_W, std::span<const LinkPo
   const Vector3d r_CN_W = r_BN_W + center_of_mass(links);
   double sum = 0.0;
   for (const Element& e : elements_) {
-    if (e.tank < 0) continue;
-    const double mass_rate = e.full_mass * share_rates[static_cast<std::size_t>(e.tank)];
-    const LinkPose& pose = links[static_cast<std::size_t>(e.link)];
-    const Vector3d r_EN_W = r_BN_W + pose.r_LB_W + pose.dcm_WL * e.r_EL_L;
+    if (e.full.tank < 0) continue;
+    const double mass_rate = e.full.mass * share_rates[static_cast<std::size_t>(e.full.tank)];
+    const Vector3d r_EN_W = r_BN_W + place_of(e, links);
     sum +=
         is_per_body(law_)
             ? -mu_ * mass_rate / r_EN_W.norm()

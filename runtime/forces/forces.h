@@ -14,6 +14,7 @@
 
 #include "compiler/ir/inputs.h"
 #include "compiler/ir/model.h"
+#include "runtime/forces/share.h"
 
 namespace twincraft {
 
@@ -98,14 +99,8 @@ class ForceModel {
                         std::span<const double> share_rates) const;
 
  private:
-  struct Element {
-    int link;
-    double mass;
-    Vector3d r_EL_L;
-    Matrix3d I_PntE_L;
-    int tank;          // -1: none
-    double full_mass;  // [kg] and
-    Matrix3d full_I;   // [kg m^2] at share 1
+  struct Element : ElementNow {
+    std::size_t link = 0;
   };
   struct HeldLoad {
     int link;
@@ -114,9 +109,8 @@ class ForceModel {
     Vector3d force_L, torque_L, r_FL_L;
   };
 
-  Vector3d center_of_mass(std::span<const LinkPose> links) const;  // r_CB_W
-  Vector3d gradient_torque(const Element& element, const Vector3d& r_EN_W,
-                           const Matrix3d& dcm_WL) const;
+  Vector3d center_of_mass(std::span<const LinkPose> links) const;               // r_CB_W
+  static Vector3d place_of(const Element& e, std::span<const LinkPose> links);  // r_EB_W
   // @param rates  empty: no work is asked for
   void apply_gravity(const Vector3d& r_BN_W, std::span<const LinkPose> links,
                      std::span<const LinkRate> rates, std::span<Wrench> wrenches, Work& work) const;
@@ -139,9 +133,5 @@ inline Vector3d point_gravity(double mu, const Vector3d& r) {
   const double r2 = r.squaredNorm();
   return r * (-mu / (r2 * std::sqrt(r2)));
 }
-
-/// g(r + x) - g(r) without the cancellation of subtracting them (Battin's form): relative error at
-/// rounding level for any |x| < |r|.
-Vector3d gravity_difference(double mu, const Vector3d& r, const Vector3d& x);
 
 }  // namespace twincraft

@@ -41,9 +41,10 @@ const std::map<std::string, Rooms> kArrows = {
       "compiler/spec", "compiler/syntax"}},
     // Model to motion to findings.
     {"runtime/engine", {"compiler/ir"}},
-    {"runtime/forces", {"compiler/ir", "runtime/engine"}},
+    {"runtime/scalar", {"compiler/ir"}},
+    {"runtime/forces", {"compiler/ir", "runtime/engine", "runtime/scalar"}},
     {"runtime/integrate", {"compiler/ir", "runtime/engine"}},
-    {"runtime/bsm", {"compiler/ir", "runtime/engine", "runtime/forces"}},
+    {"runtime/bsm", {"compiler/ir", "runtime/engine", "runtime/forces", "runtime/scalar"}},
     {"runtime/mujoco", {"compiler/ir", "runtime/engine", "runtime/forces", "mujoco"}},
     {"runtime/reference", {"compiler/ir", "compiler/analysis", "runtime/engine"}},
     {"runtime/simulate",

@@ -48,6 +48,7 @@ class KernelSymbols : public testing::TestWithParam<KernelObject> {
   /// Its mangled name holds a name of the set, so no other object defines the same.
   bool is_own(const std::string& name) const {
     return name.find("twincraft::bsm::" + GetParam().set + "::") != std::string::npos ||
+           name.find("twincraft::" + GetParam().set + "::") != std::string::npos ||
            name.find("xsimd_" + GetParam().set + "::") != std::string::npos;
   }
 };

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "runtime/forces/field.h"
 #include "tests/support/dense_oracle.h"
 
 namespace twincraft {
@@ -10,18 +11,22 @@ namespace {
 
 constexpr double kMu = 3.98600436e14;
 
+Vector3d difference(const Vector3d& r, const Vector3d& x) {
+  return portable::eigen(
+      portable::Field<double>(kMu, portable::vec(r), false).difference(portable::vec(x)));
+}
+
 TEST(GravityDifference, AgreesWithSubtractionWhereThatIsAccurate) {
   const Vector3d r(7.0e6, 1.0e6, -2.0e6), x(5.0e5, -3.0e5, 2.0e5);
   const Vector3d subtracted = point_gravity(kMu, r + x) - point_gravity(kMu, r);
-  EXPECT_LT((gravity_difference(kMu, r, x) - subtracted).norm(),
-            1e-14 * point_gravity(kMu, r).norm());
+  EXPECT_LT((difference(r, x) - subtracted).norm(), 1e-14 * point_gravity(kMu, r).norm());
 }
 
 TEST(GravityDifference, KeepsItsDigitsForAMetre) {
   // Along the radius: mu/r^2 (1 - (1 + e)^-2) = mu/r^2 (2e - 3e^2 + 4e^3 ...).
   const double r = 7.0e6, x = 1.0, e = x / r;
   const double series = kMu / (r * r) * (2.0 * e - 3.0 * e * e + 4.0 * e * e * e);
-  EXPECT_NEAR(gravity_difference(kMu, {r, 0, 0}, {x, 0, 0}).x(), series, 4e-15 * series);
+  EXPECT_NEAR(difference({r, 0, 0}, {x, 0, 0}).x(), series, 4e-15 * series);
 }
 
 struct Scene {

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "runtime/bsm/lanes.h"
 #include "runtime/integrate/runge_kutta.h"
+#include "runtime/scalar/lanes.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/support/kernel_of.h"
 

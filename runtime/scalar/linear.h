@@ -3,9 +3,9 @@
 #pragma once
 
 #include "compiler/ir/mass.h"
-#include "runtime/bsm/lanes.h"
+#include "runtime/scalar/lanes.h"
 
-namespace twincraft::bsm::TWINCRAFT_KERNEL {
+namespace twincraft::TWINCRAFT_KERNEL {
 
 template <class S>
 struct Vec {
@@ -165,6 +165,11 @@ class Ldl {
   S inverse_d0_{}, inverse_d1_{}, inverse_d2_{}, l10_{}, l20_{}, l21_{};
 };
 
+/// From Eigen and back, one double each.
+inline Vec<double> vec(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+inline Mat<double> mat(const Matrix3d& m) { return {vec(m.col(0)), vec(m.col(1)), vec(m.col(2))}; }
+inline Vector3d eigen(const Vec<double>& v) { return {v.x, v.y, v.z}; }
+
 /// From Eigen, into one lane or into all.
 template <class S>
 void set_lane(Vec<S>& v, std::size_t index, const Vector3d& to) {
@@ -188,4 +193,4 @@ void set_lane(Sym<S>& m, std::size_t index, const Matrix3d& to) {
   set_lane(m.yz, index, to(1, 2));
 }
 
-}  // namespace twincraft::bsm::TWINCRAFT_KERNEL
+}  // namespace twincraft::TWINCRAFT_KERNEL

@@ -26,7 +26,7 @@
 #pragma GCC diagnostic pop
 #undef xsimd
 
-namespace twincraft::bsm::TWINCRAFT_KERNEL {
+namespace twincraft::TWINCRAFT_KERNEL {
 
 namespace simd = ::TWINCRAFT_LANES;
 #if defined(__AVX512F__)
@@ -160,4 +160,4 @@ H gathered(const S& value, bool is_full) {
   }
 }
 
-}  // namespace twincraft::bsm::TWINCRAFT_KERNEL
+}  // namespace twincraft::TWINCRAFT_KERNEL
