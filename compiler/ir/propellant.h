@@ -18,7 +18,7 @@ inline constexpr double kStandardGravity = 9.80665;  // [m/s^2]
 
 /// What propellant takes along besides the thrust. kNone: an element of a tank shrinks where it is,
 /// with the velocity it has there. kJet: it flows to the nozzle and leaves with the nozzle's
-/// velocity (runtime/forces/jet.h).
+/// velocity (runtime/forces/stream.h).
 enum class LeavingMomentum { kNone, kJet };
 
 /// A tank that has run down at steady flows, one after another.

@@ -1,15 +1,15 @@
 // See engine.h: the state vector around the kernel. Tested by tests/runtime/bsm_test.cpp.
 #include "runtime/bsm/engine.h"
 
+#include <algorithm>
 #include <limits>
 #include <utility>
 
 #include "runtime/bsm/books.h"
-#include "runtime/bsm/jet_kernel.h"
 #include "runtime/bsm/kernel.h"
 #include "runtime/bsm/motion.h"
 #include "runtime/bsm/point_mass_engine.h"
-#include "runtime/forces/jet.h"
+#include "runtime/forces/link_forces.h"
 #include "runtime/forces/propellant_ledger.h"
 
 namespace twincraft {
@@ -31,16 +31,15 @@ class BsmEngine final : public Engine {
         propellant_(model.tanks),
         shares_(propellant_.shares(0.0)),
         forces_(model, model.gravity.bsm, elements_of(model.assembly), FieldFrame::kFalling),
-        jets_(model),
         layout_{model.engines.attitude, static_cast<int>(model.assembly.links.size()) - 1,
                 static_cast<int>(model.assembly.rotors.size())},
         held_(HeldInputs::none(model.assembly)),
         plan_(make_plan(model.assembly, model.engines.attitude, model.gravity, model.loads,
-                        model.engines.chains)),
+                        model.engines.chains, forces_of(model))),
         kernel_(make_kernel(plan_, set)),
+        link_forces_(plan_.forces, inputs_at(model, 0.0)),
         motion_(at_rest(plan_.tree)),
         wrenches_(plan_.tree.links.size()) {
-    if (!jets_.is_absent()) kernel_ = with_jets(std::move(kernel_), plan_, jets_);
     BsmEngine::hold(inputs_at(model, 0.0));
   }
 
@@ -53,7 +52,7 @@ class BsmEngine final : public Engine {
     held_.set(inputs, loads_);
     forces_.hold(inputs);
     propellant_.hold(inputs);
-    jets_.hold(inputs);
+    link_forces_.hold(inputs);
     const Plan* plan = &plan_;
     const HeldInputs* held = &held_;
     kernel_->hold({&plan, 1}, {&held, 1});
@@ -65,7 +64,7 @@ class BsmEngine final : public Engine {
                   BookRates* books) override {
     drain(time);
     if (books != nullptr) return evaluate_and_book(time, state, rate, *books);
-    kernel_->derivative(state.data(), rate.data());
+    kernel_->derivative(time, state.data(), rate.data());
   }
 
   void finish_step(std::span<double> state) override { kernel_->finish_step(state.data()); }
@@ -121,7 +120,7 @@ class BsmEngine final : public Engine {
   // Apart from derivative(), which without it is a jump into the kernel.
   [[gnu::noinline]] void evaluate_and_book(double time, std::span<const double> state,
                                            std::span<double> rate, BookRates& books) {
-    kernel_->derivative(state.data(), rate.data());
+    kernel_->derivative(time, state.data(), rate.data());
     books = book_rates(time, state);
   }
 
@@ -132,22 +131,27 @@ class BsmEngine final : public Engine {
         joint_power(plan_.tree, x.joint_position, x.joint_rate, held_.effort) +
         motor_power(x.wheel_rate, held_.motor_torque);
     BookRates rates{.power = inner_power, .own_power = inner_power};
-    if (forces_.is_idle() && !forces_.falls_as_a_whole() && propellant_.is_idle()) {
+    if (!acts() && !forces_.falls_as_a_whole() && propellant_.is_idle()) {
       rates.force_N = plan_.mass() * forces_.fall(x.r_BN_N, x.dcm_NB, motion_.poses);
       return rates;
     }
     move_links(plan_.tree, x.joint_position, x.joint_rate, x.omega_BN_B, motion_);
     const Center center = center_of(plan_.tree, motion_);
     rates.force_N = center.mass * forces_.fall(x.r_BN_N, x.dcm_NB, motion_.poses);
-    if (!forces_.is_idle()) add_forces(x, center, rates);
+    if (acts()) add_forces(time, x, center, rates);
     if (!propellant_.is_idle()) add_leaving(x, center, rates);
     return rates;
   }
 
-  void add_forces(const State& x, const Center& center, BookRates& rates) {
+  /// Something does, on some link.
+  bool acts() const { return !forces_.is_idle() || link_forces_.acts(); }
+
+  void add_forces(double time, const State& x, const Center& center, BookRates& rates) {
+    if (forces_.is_idle()) std::ranges::fill(wrenches_, Wrench{});
     Work work = forces_.apply(x.r_BN_B(), motion_.poses, motion_.rates, wrenches_);
-    // A nozzle flows only while its thrust acts.
-    if (jets_.acts()) work += jets_.add(motion_.poses, motion_.rates, wrenches_);
+    if (link_forces_.acts())
+      work += link_forces_.add({time, x.r_BN_N, x.v_BN_N, x.dcm_NB}, motion_.poses, motion_.rates,
+                               wrenches_);
     const WrenchSums sums = twincraft::sum_up(wrenches_, motion_.poses, motion_.rates);
     const Vector3d& force_B = sums.all.force_W;
     rates.power += work.power + work.force_W.dot(x.v_BN_B());
@@ -198,11 +202,11 @@ class BsmEngine final : public Engine {
   std::span<const double> shares_;
   double drained_to_ = 0.0;  // [s] the time the kernel's masses are of; NaN: of none
   ForceModel forces_;
-  JetModel jets_;
   StateLayout layout_;
   HeldInputs held_;
   Plan plan_;
   std::unique_ptr<Kernel> kernel_;
+  LinkForces link_forces_;  // for the books; the kernel has its own
   // For observations and books.
   Motion motion_;
   std::vector<Wrench> wrenches_;

@@ -17,7 +17,9 @@ class VehicleKernel final : public Kernel {
   void hold(std::span<const Plan* const> plans, std::span<const HeldInputs* const> held) override {
     vehicle_.hold(plans, held);
   }
-  void derivative(const double* state, double* rate) override { vehicle_.derivative(state, rate); }
+  void derivative(double time, const double* state, double* rate) override {
+    vehicle_.derivative(time, state, rate);
+  }
   void finish_step(double* state) const override { vehicle_.finish_step(state); }
 
   void hub_equation(std::span<double, 42> equation) const override {

@@ -26,8 +26,8 @@ class Kernel {
   /// Hold these inputs from now on, one per lane.
   virtual void hold(std::span<const Plan* const> plans,
                     std::span<const HeldInputs* const> held) = 0;
-  /// rate = d(state)/dt, laid out as runtime/engine/state.h says.
-  virtual void derivative(const double* state, double* rate) = 0;
+  /// rate = d(state)/dt at `time` [s], laid out as runtime/engine/state.h says.
+  virtual void derivative(double time, const double* state, double* rate) = 0;
   /// MRP shadow switch or quaternion normalisation, in place.
   virtual void finish_step(double* state) const = 0;
   /// The hub's equation [A B; C D] (a, omegaDot) = (vT, vR) of the last derivative() of lane 0, as

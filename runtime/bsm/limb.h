@@ -108,6 +108,17 @@ class Limb {
     }
   }
 
+  /// Links that forces may push: their velocities are told too, and what is pushed is added.
+  void watch() { is_watched_ = true; }
+  /// How link i of a limb moves, after move().
+  LinkMotion<H> motion_of(std::size_t i, std::size_t limb) const {
+    return picked<H>(motions_[i].at, limb);
+  }
+  void push(std::size_t i, std::size_t limb, const Pull<H>& pull) {
+    add_to<H>(motions_[i].pushed.force, limb, pull.force);
+    add_to<H>(motions_[i].pushed.torque, limb, pull.torque);
+  }
+
   /// Positions and rates of all links from those of the hub.
   void move(const double* state, const Vec<S>& omega_BN_B) {
     hub_.omega = omega_BN_B;
@@ -196,6 +207,7 @@ class Limb {
     Vec<S> spin;        // [kg m^2/s] momentum of the rotors
     Vec<S> moment;      // [kg m] from the origin
     Vec<S> omega_dot, a;
+    Pull<S> pushed;  // about the origin, by forces that follow the motion
   };
   /// qDDot = gain - gain_n . omegaDot_P - gain_f . a', a' the parent's acceleration at the joint.
   struct Recovery {
@@ -284,6 +296,11 @@ class Limb {
     }
     m.at.dcm_WL = on_hub ? dcm_PL : parent.dcm_WL * dcm_PL;
     m.at.r_LB = parent.r_LB + m.r_HP;
+    if (is_watched_) {
+      m.at.v_LB = parent.v_LB + cross(parent.omega, m.r_HP);
+      if (link.slides) m.at.v_LB += q_dot * m.axis;
+      m.pushed = {};
+    }
     m.moment = m.at.dcm_WL * link.mass.moment;
     m.u = link.effort - link.stiffness * (q - link.rest);
     m.q_dot = q_dot;
@@ -320,6 +337,10 @@ class Limb {
     }
     for (const RotorOn<H, S>& rotor : link.rotors) {
       law.n0 += dcm * (rotor.motor_torque * rotor.axis_L);
+    }
+    if (is_watched_) {
+      law.n0 -= m.pushed.torque;
+      law.f0 -= m.pushed.force;
     }
     if (field != nullptr) pull(i, *field);
     if (r_CB != nullptr) {
@@ -386,7 +407,8 @@ class Limb {
   std::vector<Recovery> recoveries_;
   std::vector<Chain<H, S>> chains_;
   MountMotion<S> hub_{
-      {{S(1.0), S(0.0), S(0.0)}, {S(0.0), S(1.0), S(0.0)}, {S(0.0), S(0.0), S(1.0)}}, {}, {}};
+      {{S(1.0), S(0.0), S(0.0)}, {S(0.0), S(1.0), S(0.0)}, {S(0.0), S(0.0), S(1.0)}}, {}, {}, {}};
+  bool is_watched_ = false;
 };
 
 }  // namespace twincraft::bsm::TWINCRAFT_KERNEL

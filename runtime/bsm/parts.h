@@ -4,6 +4,7 @@
 
 #include "runtime/bsm/plan.h"
 #include "runtime/forces/field.h"
+#include "runtime/forces/link_motion.h"
 #include "runtime/scalar/linear.h"
 
 namespace twincraft::bsm::TWINCRAFT_KERNEL {
@@ -18,13 +19,9 @@ struct Layout {
   int rate(int link) const { return joint_rate + link - 1; }
 };
 
-/// How a mount moves, in hub axes.
+/// How a mount moves, in hub axes; its velocity only where a force asks for it.
 template <class S>
-struct MountMotion {
-  Mat<S> dcm_WL;
-  Vec<S> omega;  // [rad/s] inertial
-  Vec<S> r_LB;   // [m] its origin from the hub's
-};
+using MountMotion = LinkMotion<S>;
 
 /// What gravity pulls on: an element in the axes of its link, of a chain in the chain's.
 template <class S>
@@ -56,15 +53,42 @@ struct Moment {
   }
 };
 
-/// A force and its torque about some origin.
-template <class S>
-struct Pull {
-  Vec<S> force, torque;
-
-  void add(const Vec<S>& more, const Vec<S>& at) {
-    force += more;
-    torque += cross(at, more);
+/// One limb's number of those in the lanes of S.
+template <class H, class S>
+H picked(const S& value, std::size_t limb) {
+  if constexpr (kLimbs<H, S> == 1) {
+    return value;
+  } else {
+    return lane(value, limb);
   }
-};
+}
+template <class H, class S>
+Vec<H> picked(const Vec<S>& v, std::size_t limb) {
+  return {picked<H>(v.x, limb), picked<H>(v.y, limb), picked<H>(v.z, limb)};
+}
+template <class H, class S>
+Mat<H> picked(const Mat<S>& m, std::size_t limb) {
+  return {picked<H>(m.x, limb), picked<H>(m.y, limb), picked<H>(m.z, limb)};
+}
+template <class H, class S>
+LinkMotion<H> picked(const LinkMotion<S>& m, std::size_t limb) {
+  return {picked<H>(m.dcm_WL, limb), picked<H>(m.omega, limb), picked<H>(m.r_LB, limb),
+          picked<H>(m.v_LB, limb)};
+}
+/// Add a number to one limb's.
+template <class H, class S>
+void add_to(S& value, std::size_t limb, const H& more) {
+  if constexpr (kLimbs<H, S> == 1) {
+    value += more;
+  } else {
+    set_lane(value, limb, lane(value, limb) + more);
+  }
+}
+template <class H, class S>
+void add_to(Vec<S>& v, std::size_t limb, const Vec<H>& more) {
+  add_to<H>(v.x, limb, more.x);
+  add_to<H>(v.y, limb, more.y);
+  add_to<H>(v.z, limb, more.z);
+}
 
 }  // namespace twincraft::bsm::TWINCRAFT_KERNEL

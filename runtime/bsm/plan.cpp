@@ -239,14 +239,16 @@ void Plan::set_shares(std::span<const double> shares) {
 }
 
 Plan make_plan(const Assembly& assembly, AttitudeChart chart, const Gravity& gravity,
-               const std::vector<Load>& loads, ChainPath paths) {
+               const std::vector<Load>& loads, ChainPath paths, Forces forces) {
   Plan plan;
   plan.tree = prepare(assembly);
   plan.chart = chart;
   plan.mu = gravity.mu;
   plan.law = gravity.bsm;
+  plan.forces = std::move(forces);
   std::vector<bool> is_excluded(assembly.links.size(), false);
   for (const Load& load : loads) is_excluded[static_cast<std::size_t>(load.link)] = true;
+  for (const int link : links_of(plan.forces)) is_excluded[static_cast<std::size_t>(link)] = true;
   for (const LinkConstants& link : plan.tree.links) {
     if (link.damped_by_cosine_of >= 0) {
       is_excluded[static_cast<std::size_t>(link.damped_by_cosine_of)] = true;
@@ -266,10 +268,12 @@ HeldInputs HeldInputs::none(const Assembly& assembly) {
           nothing,
           nothing,
           nothing,
-          false};
+          false,
+          {}};
 }
 
-void HeldInputs::set(const Inputs& inputs, std::span<const Load> loads) {
+void HeldInputs::set(const Inputs& now, std::span<const Load> loads) {
+  inputs = now;
   const InputLayout& at = inputs.layout;
   std::copy_n(inputs.u.begin() + at.effort(0), effort.size(), effort.begin());
   std::copy_n(inputs.u.begin() + at.motor_torque(0), motor_torque.size(), motor_torque.begin());

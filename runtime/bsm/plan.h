@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "compiler/ir/forces.h"
 #include "compiler/ir/inputs.h"
 #include "compiler/ir/model.h"
 #include "runtime/bsm/tree.h"
@@ -57,6 +58,7 @@ struct Plan {
   AttitudeChart chart = AttitudeChart::kMrp;
   double mu = 0.0;  // [m^3/s^2]
   GravityLaw law = GravityLaw::kNone;
+  Forces forces;  // that follow the motion of links
   LinkPlan hub;
   std::vector<LimbPlan> limbs;
 
@@ -69,10 +71,11 @@ struct Plan {
   void set_shares(std::span<const double> shares);
 };
 
-/// @param loads  what may act on a link, which excludes it from the planar path
+/// @param loads, forces  what may act on a link, which excludes it from the planar path
 /// @param paths  kGeneral: sliding points too take the way that serves any tree
 Plan make_plan(const Assembly& assembly, AttitudeChart chart, const Gravity& gravity,
-               const std::vector<Load>& loads, ChainPath paths = ChainPath::kPlanar);
+               const std::vector<Load>& loads, ChainPath paths = ChainPath::kPlanar,
+               Forces forces = {});
 
 /// What acts until the next event.
 struct HeldInputs {
@@ -82,6 +85,7 @@ struct HeldInputs {
   std::vector<Vector3d> force_L, torque_L;  // [N], [N m]
   std::vector<Vector3d> force_at_center_L;  // [N] the same, but at the system centre of mass
   bool acts_at_center = false;
+  Inputs inputs;  // all of them, for the forces that follow the motion of links
 
   static HeldInputs none(const Assembly& assembly);
   /// @param loads  of the model the inputs are of. No allocation.

@@ -52,10 +52,25 @@ class Point {
     set_lane(force_at_center_L_, l, *force_at_center_L);
   }
 
+  /// As of Limb.
+  void watch() { is_watched_ = true; }
+  LinkMotion<H> motion_of(std::size_t, std::size_t limb) const {
+    return picked<H>(LinkMotion<S>{dcm_BL_, omega_, r_, v_}, limb);
+  }
+  void push(std::size_t, std::size_t limb, const Pull<H>& pull) {
+    add_to<H>(pushed_.force, limb, pull.force);
+    add_to<H>(pushed_.torque, limb, pull.torque);
+  }
+
   void move(const double* state, const Vec<S>& omega) {
     const S q = gather<H, S>(state, position_);
     const S q_dot = gather<H, S>(state, rate_);
     r_ = r_HB_ + q * axis_;
+    if (is_watched_) {
+      omega_ = omega;
+      v_ = cross(omega, r_) + q_dot * axis_;
+      pushed_ = {};
+    }
     a_bias_ = cross(omega, cross(omega, r_) + (q_dot + q_dot) * axis_);
     u_ = effort_ - stiffness_ * (q - rest_) - damping_ * q_dot;
   }
@@ -65,6 +80,10 @@ class Point {
   Law<S> contribute(const Field<S>* field, const Vec<S>* r_CB) {
     Vec<S> pull = dcm_BL_ * force_L_;
     Vec<S> torque = dcm_BL_ * torque_L_;
+    if (is_watched_) {
+      pull += pushed_.force;
+      torque += pushed_.torque;
+    }
     if (field != nullptr) pull += mass_ * field->difference(r_);
     if (r_CB != nullptr) {
       const Vec<S> force = dcm_BL_ * force_at_center_L_;
@@ -101,6 +120,9 @@ class Point {
   Vec<S> force_L_, torque_L_, force_at_center_L_;
   Places<H, S> position_{}, rate_{};
   Vec<S> r_, a_bias_;
+  bool is_watched_ = false;
+  Vec<S> omega_, v_;
+  Pull<S> pushed_;
   S u_{}, gain_{};
 };
 

@@ -9,6 +9,7 @@
 #include "runtime/bsm/kernel.h"
 #include "runtime/bsm/limb.h"
 #include "runtime/bsm/point.h"
+#include "runtime/forces/list.h"
 
 namespace twincraft::bsm::TWINCRAFT_KERNEL {
 
@@ -33,6 +34,7 @@ class Vehicle {
     if (is_rigid_) factors_ = HubFactors(hub_);
     for (const LimbPlan& limb : plan_.limbs) has_elements_ = has_elements_ || pulls_on(limb);
     has_elements_ = has_elements_ || !elements_.empty();
+    list_forces(plans);
   }
 
   void set_masses(Plans plans) {
@@ -60,8 +62,9 @@ class Vehicle {
       for (std::size_t k = 0; k < rotors_.size(); ++k) {
         rotors_[k].hold(l, held[l]->motor_torque.data()[plans[l]->hub.rotors.data()[k]]);
       }
+      forces_.hold(l, plans[l]->forces, held[l]->inputs);
     }
-    turns_alone_ = is_rigid_ && !has_elements_ && !acts_at_center_;
+    turns_alone_ = is_rigid_ && !has_elements_ && !acts_at_center_ && places_.empty();
     for (std::size_t l = 0; l < plans.size(); ++l) {
       turns_alone_ = turns_alone_ && held[l]->force_L.data()->isZero(0.0) &&
                      plans[l]->tree.links.data()->first_moment.isZero(0.0);
@@ -76,11 +79,11 @@ class Vehicle {
     });
   }
 
-  void derivative(const double* state, double* rate) {
+  void derivative(double time, const double* state, double* rate) {
     if (plan_.chart == AttitudeChart::kMrp) {
-      derivative_in<Mrp<H>>(state, rate);
+      derivative_in<Mrp<H>>(time, state, rate);
     } else {
-      derivative_in<Quaternion<H>>(state, rate);
+      derivative_in<Quaternion<H>>(time, state, rate);
     }
   }
 
@@ -213,7 +216,7 @@ class Vehicle {
   }
 
   template <class Chart>
-  void derivative_in(const double* state, double* rate) {
+  void derivative_in(double time, const double* state, double* rate) {
     const Chart chart(state, Layout::kAttitude);
     const Vec<H> omega = vector(state, layout_.omega);
     if (turns_alone_) {
@@ -225,6 +228,7 @@ class Vehicle {
     for_each_group([&](auto& group) { group.limb.move(state, omega_S); });
 
     begin_hub_law(omega, rotor_momentum(state, omega));
+    if (forces_.acts()) push(time, state, dcm_NB, omega);
     const Vec<H> g_N = sum_laws(vector(state, 0), dcm_NB);
     if (!is_rigid_) factors_ = HubFactors(hub_);
     const Vec<H> omega_dot = factors_.schur.solve(transposed(factors_.coupling, hub_.f0) - hub_.n0);
@@ -236,6 +240,69 @@ class Vehicle {
     for (int i = layout_.joint; i < layout_.joint_rate; ++i) {
       put_entry(rate, i, entry<H>(state, i + layout_.joint_rate - layout_.joint));
     }
+  }
+
+  // Apart from derivative_in(): most vehicles have no such force.
+  [[gnu::noinline]] void push(double time, const double* state, const Mat<H>& dcm_NB,
+                              const Vec<H>& omega) {
+    const Surroundings<H> around{H(time), vector(state, 0), vector(state, 3), dcm_NB};
+    LinkMotion<H> hub;
+    hub.dcm_WL = {{H(1.0), H(0.0), H(0.0)}, {H(0.0), H(1.0), H(0.0)}, {H(0.0), H(0.0), H(1.0)}};
+    hub.omega = omega;
+    const auto with_place = [this](int link, const auto& on_point, const auto& on_limb) {
+      const ForcePlace& place = places_.data()[link];
+      if (place.is_point)
+        on_point(points_.data()[place.group].limb, place);
+      else
+        on_limb(limbs_.data()[place.group].limb, place);
+    };
+    const auto motion_of = [&](int link) {
+      LinkMotion<H> motion = hub;
+      const auto take = [&motion](const auto& limb, const ForcePlace& place) {
+        motion = limb.motion_of(place.link, place.lane);
+      };
+      if (link > 0) with_place(link, take, take);
+      return motion;
+    };
+    forces_.add(around, motion_of, [&](int link, const Pull<H>& pull) {
+      if (link == 0) {
+        hub_.f0 -= pull.force;
+        hub_.n0 -= pull.torque;
+        return;
+      }
+      const auto give = [&pull](auto& limb, const ForcePlace& place) {
+        limb.push(place.link, place.lane, pull);
+      };
+      with_place(link, give, give);
+    });
+  }
+
+  /// Where a link that forces act on is among the limbs.
+  struct ForcePlace {
+    bool is_point = false;
+    std::size_t group = 0, link = 0, lane = 0;
+  };
+
+  void list_forces(Plans plans) {
+    std::array<const Forces*, kLanes<H>> of{};
+    for (std::size_t l = 0; l < kLanes<H>; ++l) of[l] = &plans[l]->forces;
+    forces_ = ForceList<H>(of);
+    const std::vector<int> links = links_of(plan_.forces);
+    if (links.empty()) return;
+    places_.resize(plan_.tree.links.size());
+    find_places(points_, true);
+    find_places(limbs_, false);
+    for_each_group([](auto& group) { group.limb.watch(); });
+  }
+  template <class Of>
+  void find_places(const std::vector<Group<Of>>& groups, bool is_point) {
+    for (std::size_t g = 0; g < groups.size(); ++g)
+      for (std::size_t j = 0; j < kLimbs<H, S>; ++j) {
+        if (j > 0 && !groups[g].is_full) continue;
+        const LimbPlan& limb = plan_.limbs.data()[groups[g].limbs[j]];
+        for (std::size_t i = 0; i < limb.links.size(); ++i)
+          places_[static_cast<std::size_t>(limb.links[i].link)] = {is_point, g, i, j};
+      }
   }
 
   /// A rigid hub whose origin is its centre of mass, that no force acts on: rotation knows nothing
@@ -388,6 +455,8 @@ class Vehicle {
   bool has_elements_ = false;  // that feel another field than B does
   HubFactors factors_;
   Law<H> hub_alone_, hub_;
+  ForceList<H> forces_;             // that follow the motion of links
+  std::vector<ForcePlace> places_;  // by link; empty: there are no such forces
 };
 
 }  // namespace twincraft::bsm::TWINCRAFT_KERNEL

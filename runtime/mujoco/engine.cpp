@@ -23,7 +23,7 @@
 
 #include "compiler/ir/number.h"
 #include "runtime/forces/forces.h"
-#include "runtime/forces/jet.h"
+#include "runtime/forces/link_forces.h"
 #include "runtime/forces/propellant_ledger.h"
 #include "runtime/mujoco/draining.h"
 #include "runtime/mujoco/exchange.h"
@@ -82,22 +82,25 @@ class MujocoEngine final : public Engine {
 
  private:
   /// What was found of forces; the wrenches are in wrenches_.
-  struct Forces {
+  struct Found {
     Vector3d fall_N = Vector3d::Zero();  // [m/s^2] the common acceleration of the falling frame
     Work work;                           // when it was asked for
   };
 
   void drain(double time);
   BookRates book_rates(std::span<const double> state, const Matrix3d& dcm_NW,
-                       const Forces& forces) const;
-  BookRates centred_book_rates(std::span<const double> state);
+                       const Found& found) const;
+  BookRates centred_book_rates(double time, std::span<const double> state);
   void add_leaving(const Vector3d& r_BN_W, const Vector3d& v_BN_W, const Matrix3d& dcm_NW,
                    const BodyCenter& center, BookRates& rates) const;
   [[noreturn]] void fail(std::span<const double> state, std::span<const double> rate);
   void move_to(std::span<const double> state);
   void gather_poses();
   void gather_rates(std::span<const int> links);
-  Forces find_forces(const Vector3d& r_BN_N, const Matrix3d& dcm_NW, bool with_work);
+  Found find_forces(double time, std::span<const double> state, const Matrix3d& dcm_NW,
+                    bool with_work);
+  /// Some force does, on some link.
+  bool acts() const { return !forces_.is_idle() || link_forces_.acts(); }
   double joint_power() const;
   std::vector<int> dof_order() const;
 
@@ -116,7 +119,8 @@ class MujocoEngine final : public Engine {
   DrainingBodies draining_;
   WrenchProjector projector_;
   ForceModel forces_;
-  JetModel jets_;
+  const twincraft::Forces force_data_;
+  LinkForces link_forces_;
   std::vector<double> held_;     // held efforts and motor torques, per MuJoCo dof
   std::vector<double> applied_;  // inputs and projected wrenches
   std::vector<LinkPose> poses_;
@@ -140,7 +144,8 @@ MujocoEngine::MujocoEngine(const Model& model, const std::string& mjcf)
       draining_(model, *model_),
       projector_(*model_, map_),
       forces_(model, law_, gravity_elements(model), field_frame(model.engines.frame)),
-      jets_(model),
+      force_data_(forces_of(model)),
+      link_forces_(force_data_, inputs_at(model, 0.0)),
       held_(static_cast<std::size_t>(model_->nv)),
       applied_(held_.size()),
       poses_(model.assembly.links.size()),
@@ -159,7 +164,7 @@ void MujocoEngine::hold(const Inputs& inputs) {
     held[map_.wheel_dof[i]] = inputs[inputs.layout.motor_torque(static_cast<int>(i))];
   forces_.hold(inputs);
   propellant_.hold(inputs);
-  jets_.hold(inputs);
+  link_forces_.hold(inputs);
   drained_to_ = std::numeric_limits<double>::quiet_NaN();
   drain(inputs.since);
 }
@@ -186,10 +191,10 @@ void MujocoEngine::derivative(double time, std::span<const double> state, std::s
   mj_comPos(m, d);
   mj_comVel(m, d);
   const double* applied = held_.data();
-  Forces forces;
-  if (law_ != GravityLaw::kNone || !forces_.is_idle()) {
-    forces = find_forces(Input(state.data() + StateLayout::position()), dcm_NW, books != nullptr);
-    if (!forces_.is_idle()) {
+  Found found;
+  if (law_ != GravityLaw::kNone || acts()) {
+    found = find_forces(time, state, dcm_NW, books != nullptr);
+    if (acts()) {
       std::ranges::copy(held_, applied_.begin());
       projector_.add(*m, *d, wrenches_, applied_);
       applied = applied_.data();
@@ -202,12 +207,12 @@ void MujocoEngine::derivative(double time, std::span<const double> state, std::s
   for (int i = 0; i < m->nv; ++i) d->qacc[i] = d->qfrc_passive[i] - d->qfrc_bias[i] + applied[i];
   mj_solveM(m, d, d->qacc, d->qacc, 1);
   const double sum =
-      exchange_.take_back(state.data(), dcm_NW * Input(d->qacc) + forces.fall_N, *d, rate.data());
+      exchange_.take_back(state.data(), dcm_NW * Input(d->qacc) + found.fall_N, *d, rate.data());
   // A singular mass matrix only warns, and MuJoCo goes on with a made-up pivot.
   if (!std::isfinite(sum) || d->warning[mjWARN_INERTIA].number > 0) fail(state, rate);
   if (books == nullptr) return;
-  *books = placement_ == Placement::kAligned ? book_rates(state, dcm_NW, forces)
-                                             : centred_book_rates(state);
+  *books = placement_ == Placement::kAligned ? book_rates(state, dcm_NW, found)
+                                             : centred_book_rates(time, state);
 }
 
 // One bad entry spoils all accelerations, so the state is searched for the culprit first.
@@ -243,23 +248,25 @@ void MujocoEngine::gather_poses() {
 }
 
 // Poses and, where something acts, the wrenches of all links.
-MujocoEngine::Forces MujocoEngine::find_forces(const Vector3d& r_BN_N, const Matrix3d& dcm_NW,
-                                               bool with_work) {
-  Forces forces;
+MujocoEngine::Found MujocoEngine::find_forces(double time, std::span<const double> state,
+                                              const Matrix3d& dcm_NW, bool with_work) {
+  const Vector3d r_BN_N = Input(state.data() + StateLayout::position());
+  const Vector3d v_BN_N = Input(state.data() + StateLayout::velocity());
+  Found found;
   gather_poses();
+  if (with_work) gather_rates(all_links_);
   if (!forces_.is_idle()) {
-    if (with_work) gather_rates(all_links_);
     const std::span<const LinkRate> rates =
         with_work ? std::span<const LinkRate>(link_rates_) : std::span<const LinkRate>();
-    forces.work = forces_.apply(dcm_NW.transpose() * r_BN_N, poses_, rates, wrenches_);
-    // A nozzle flows only while its thrust acts, so here alone.
-    if (jets_.acts()) {
-      if (!with_work) gather_rates(jets_.links());
-      forces.work += jets_.add(poses_, link_rates_, wrenches_);
-    }
+    found.work = forces_.apply(dcm_NW.transpose() * r_BN_N, poses_, rates, wrenches_);
   }
-  forces.fall_N = forces_.fall(r_BN_N, dcm_NW, poses_);
-  return forces;
+  if (link_forces_.acts()) {
+    if (forces_.is_idle()) std::ranges::fill(wrenches_, Wrench{});
+    if (!with_work) gather_rates(link_forces_.links());
+    found.work += link_forces_.add({time, r_BN_N, v_BN_N, dcm_NW}, poses_, link_rates_, wrenches_);
+  }
+  found.fall_N = forces_.fall(r_BN_N, dcm_NW, poses_);
+  return found;
 }
 
 // The vehicle at `state`, centred in any frame: what is observed is not what is tested.
@@ -294,18 +301,18 @@ void MujocoEngine::observe(double time, std::span<const double> state, Observati
 
 // From what the evaluation left behind. @pre the hub's origin is at rest at zero there
 BookRates MujocoEngine::book_rates(std::span<const double> state, const Matrix3d& dcm_NW,
-                                   const Forces& forces) const {
+                                   const Found& found) const {
   const Vector3d r_BN_W = dcm_NW.transpose() * Input(state.data() + StateLayout::position());
   const Vector3d v_BN_W = dcm_NW.transpose() * Input(state.data() + StateLayout::velocity());
   const BodyCenter center = center_of(*model_, *data_);
   const double inner_power = joint_power();
   BookRates rates{.power = inner_power,
-                  .force_N = center.mass * forces.fall_N,  // what falls does so at C
+                  .force_N = center.mass * found.fall_N,  // what falls does so at C
                   .own_power = inner_power};
-  if (!forces_.is_idle()) {
+  if (acts()) {
     const WrenchSums sums = sum_up(wrenches_, poses_, link_rates_);
     const Vector3d& force_W = sums.all.force_W;
-    rates.power += forces.work.power + forces.work.force_W.dot(v_BN_W);
+    rates.power += found.work.power + found.work.force_W.dot(v_BN_W);
     rates.own_power += sums.power - force_W.dot(center.v_CB_W);
     rates.force_N += dcm_NW * force_W;
     rates.torque_PntC_N += dcm_NW * (sums.all.torque_PntB_W - center.r_CB_W.cross(force_W));
@@ -315,11 +322,10 @@ BookRates MujocoEngine::book_rates(std::span<const double> state, const Matrix3d
 }
 
 // In the inertial frame the hub stands where it is, and sums about it would lose their digits.
-BookRates MujocoEngine::centred_book_rates(std::span<const double> state) {
+BookRates MujocoEngine::centred_book_rates(double time, std::span<const double> state) {
   move_to(state);
   const Matrix3d dcm_NW = Matrix3d::Identity();
-  return book_rates(state, dcm_NW,
-                    find_forces(Input(state.data() + StateLayout::position()), dcm_NW, true));
+  return book_rates(state, dcm_NW, find_forces(time, state, dcm_NW, true));
 }
 
 // Propellant takes its own energy and momentum along.

@@ -79,7 +79,7 @@ class Batch final : public Ode {
 
   int size() const override { return static_cast<int>(initial_.size()); }
   void derivative(double, std::span<const double> state, std::span<double> rate) override {
-    kernel_->derivative(state.data(), rate.data());
+    kernel_->derivative(0.0, state.data(), rate.data());
   }
   void finish_step(std::span<double> state) override { kernel_->finish_step(state.data()); }
 

@@ -26,17 +26,17 @@ std::vector<InstructionSet> sets_of_this_processor() {
 }
 
 TEST(Lanes, HaveSinesGoodToTheLastDigits) {
-  using bsm::portable::Pair;
+  using portable::Pair;
   double worst = 0.0;
   for (int i = -20000; i < 20000; ++i) {
     const double angle = 1.2345e-2 * i;
     Pair pair(angle);
-    bsm::portable::set_lane(pair, 1, 1000.0 * angle);
-    const auto [sine, cosine] = bsm::portable::sine_cosine(pair);
+    portable::set_lane(pair, 1, 1000.0 * angle);
+    const auto [sine, cosine] = portable::sine_cosine(pair);
     for (const std::size_t lane : {0u, 1u}) {
-      const double at = bsm::portable::lane(pair, lane);
-      worst = std::max(worst, std::abs(bsm::portable::lane(sine, lane) - std::sin(at)));
-      worst = std::max(worst, std::abs(bsm::portable::lane(cosine, lane) - std::cos(at)));
+      const double at = portable::lane(pair, lane);
+      worst = std::max(worst, std::abs(portable::lane(sine, lane) - std::sin(at)));
+      worst = std::max(worst, std::abs(portable::lane(cosine, lane) - std::cos(at)));
     }
   }
   EXPECT_LT(worst, 2.3e-16);  // one digit in the last place of a number below one
@@ -99,8 +99,8 @@ class KernelOde final : public Ode {
  public:
   KernelOde(bsm::Kernel& kernel, int size) : kernel_(kernel), size_(size) {}
   int size() const override { return size_; }
-  void derivative(double, std::span<const double> state, std::span<double> rate) override {
-    kernel_.derivative(state.data(), rate.data());
+  void derivative(double time, std::span<const double> state, std::span<double> rate) override {
+    kernel_.derivative(time, state.data(), rate.data());
   }
   void finish_step(std::span<double> state) override { kernel_.finish_step(state.data()); }
 
@@ -156,7 +156,7 @@ TEST(Batch, TakesNothingFromTheHeapInADerivative) {
   Eigen::VectorXd rate(state.size());
   const long before = test::allocation_count();
   for (int i = 0; i < 10; ++i) {
-    batch->derivative(state.data(), rate.data());
+    batch->derivative(0.0, state.data(), rate.data());
     batch->finish_step(state.data());
   }
   EXPECT_EQ(test::allocation_count(), before);

@@ -40,7 +40,7 @@ Eigen::VectorXd KernelOf::accelerations(const OracleState& state, const bsm::Hel
   kernel_->hold({&plan, 1}, {&inputs, 1});
   const Eigen::VectorXd x = kernel_state(state, r_BN_N);
   Eigen::VectorXd rate(x.size());
-  kernel_->derivative(x.data(), rate.data());
+  kernel_->derivative(0.0, x.data(), rate.data());
   return accelerations_in(rate, state);
 }
 

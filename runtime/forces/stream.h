@@ -1,5 +1,5 @@
 // Propellant that leaves as a jet (`depletion: {momentum: jet}`): what a tank's own loss of mass
-// leaves out, as wrenches for both engines.
+// leaves out.
 //
 // The engines let an element of a tank shrink where it is: what it loses vanishes with the velocity
 // it has there, and no force acts. In truth it flows to the nozzle, at rate mdot > 0, and leaves
@@ -17,59 +17,48 @@
 // the kick of -/+ mdot (r_P - r_E) when the flow starts or stops.
 //
 // Only differences of velocities enter, so a common one costs no digit.
+// Tested by tests/components/jet_test.cpp.
 #pragma once
 
-#include <span>
-#include <vector>
+#include <array>
 
+#include "compiler/ir/forces.h"
 #include "compiler/ir/inputs.h"
-#include "runtime/forces/forces.h"
+#include "runtime/forces/link_motion.h"
 
-namespace twincraft {
+namespace twincraft::TWINCRAFT_KERNEL {
 
-class JetModel {
+template <class S>
+class StreamLaw {
  public:
-  explicit JetModel(const Model& model);
+  static constexpr std::size_t kLinks = 2;  // the nozzle's, the element's
 
-  /// No propellant leaves as a jet, at any time.
-  bool is_absent() const { return nozzles_.empty(); }
-
-  /// What may feel something: the links of nozzles and of what drains, parents before children.
-  const std::vector<int>& links() const { return links_; }
-
-  void hold(const Inputs& inputs);
-
-  /// Something flows.
-  bool acts() const { return acts_; }
-
-  /// Add to the wrenches of links(). @param links, rates  read at links() @return of what it added
-  Work add(std::span<const LinkPose> links, std::span<const LinkRate> rates,
-           std::span<Wrench> wrenches) const;
+  void set(std::size_t l, const Stream& from) {
+    set_lane(r_PL_, l, from.r_PL_L);
+    set_lane(r_EL_, l, from.r_EL_L);
+    set_lane(k_, l, from.k_L);
+  }
+  /// @return whether it acts
+  bool hold(std::size_t l, const Stream& from, const Inputs& inputs) {
+    const double flow = inputs[inputs.layout.nozzle_flow(from.nozzle)];
+    set_lane(mdot_, l, flow > 0.0 ? from.part * flow : 0.0);
+    return flow > 0.0;
+  }
+  /// Add what it does to its links, about the origin of each.
+  void add(const Surroundings<S>&, const std::array<LinkMotion<S>, kLinks>& links,
+           std::array<Pull<S>, kLinks>& pulls) const {
+    const auto& [nozzle, element] = links;
+    const Vec<S> r_PL = nozzle.dcm_WL * r_PL_, r_EL = element.dcm_WL * r_EL_;
+    const Vec<S> force = -mdot_ * (nozzle.velocity_at(r_PL) - element.velocity_at(r_EL));
+    pulls[0].add(force, r_PL);
+    pulls[1].add(force, r_EL);
+    pulls[1].torque += mdot_ * (element.dcm_WL * (k_ * transposed(element.dcm_WL, element.omega)));
+  }
 
  private:
-  struct Source {
-    int tank;
-    int link;
-    double part;  // of what leaves the tank
-    Vector3d r_EL_L;
-    Matrix3d k_L;  // [m^2] inertia per mass about E
-  };
-  struct Outlet {
-    Nozzle nozzle;
-    double flow;  // [kg/s] held
-  };
-  struct Point {
-    Vector3d r_B, v;  // [m] from the hub origin, [m/s]
-  };
-  static Point point_of(int link, const Vector3d& r_L, std::span<const LinkPose> links,
-                        std::span<const LinkRate> rates);
-  template <class Each>
-  void for_each_stream(const Each& each) const;
-
-  std::vector<Source> sources_;
-  std::vector<Outlet> nozzles_;
-  std::vector<int> links_;
-  bool acts_ = false;
+  Vec<S> r_PL_, r_EL_;
+  Sym<S> k_;
+  S mdot_{};  // [kg/s]
 };
 
-}  // namespace twincraft
+}  // namespace twincraft::TWINCRAFT_KERNEL
