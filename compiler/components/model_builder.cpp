@@ -33,11 +33,6 @@ TreeJoint tree_joint(const std::string& name, const Joint& joint) {
   return {name, joint.kind, joint.axis_L, joint.stiffness, joint.damping, joint.rest};
 }
 
-/// Given in a mount's axes, taken in those of the link that carries it.
-Vector3d point_on_link(const Mount& mount, const Vector3d& r_PM_M) {
-  return mount.r_ML_L + mount.dcm_LM * r_PM_M;
-}
-
 MassElement on_link(const Mount& mount, const MassElement& element) {
   return seated(element, {.link = mount.link, .dcm_LS = mount.dcm_LM, .r_SL_L = mount.r_ML_L});
 }
@@ -76,7 +71,7 @@ void ModelBuilder::add_hub() {
 Mount ModelBuilder::add_link(const Mount& parent, const std::string& name, const Joint& joint) {
   const Mount mount{.link = size_of(model_.assembly.links), .body = size_of(model_.tree.bodies)};
   Joint joint_on_link = joint;
-  joint_on_link.r_HP_P = point_on_link(parent, joint.r_HP_P);
+  joint_on_link.r_HP_P = parent.point_on_link(joint.r_HP_P);
   joint_on_link.dcm_PL0 = parent.dcm_LM * joint.dcm_PL0;
   model_.assembly.links.push_back({name, parent.link, std::move(joint_on_link), {}});
 
@@ -121,7 +116,7 @@ Mount ModelBuilder::add_fixed_body(const Mount& parent, const std::string& name,
   const Mount mount{.link = parent.link,
                     .body = size_of(model_.tree.bodies),
                     .dcm_LM = parent.dcm_LM * dcm_PM,
-                    .r_ML_L = point_on_link(parent, r_MP_P)};
+                    .r_ML_L = parent.point_on_link(r_MP_P)};
   model_.tree.bodies.push_back(std::move(body));
   mounts_[name] = mount;
   return mount;
@@ -209,14 +204,14 @@ void ModelBuilder::add_load(const Mount& mount, Load load) {
   load.link = mount.link;
   load.force_L = on_link(mount, load.force_L);
   load.torque_L = on_link(mount, load.torque_L);
-  if (load.r_FL_L) load.r_FL_L = point_on_link(mount, *load.r_FL_L);
+  if (load.r_FL_L) load.r_FL_L = mount.point_on_link(*load.r_FL_L);
   model_.loads.push_back(std::move(load));
 }
 
 void ModelBuilder::add_nozzle(const Mount& mount, Nozzle nozzle) {
   if (at(model_.tanks, nozzle.tank).momentum == LeavingMomentum::kNone) return;
   nozzle.link = mount.link;
-  nozzle.r_PL_L = point_on_link(mount, nozzle.r_PL_L);
+  nozzle.r_PL_L = mount.point_on_link(nozzle.r_PL_L);
   model_.nozzles.push_back(std::move(nozzle));
 }
 
@@ -224,8 +219,22 @@ Model ModelBuilder::build() && {
   form_inertials();
   take_tokens_out();
   carry_wheel_tensors();
+  form_streams();
   refuse_deep_chains();
   return std::move(model_);
+}
+
+void ModelBuilder::form_streams() {
+  for (std::size_t n = 0; n < model_.nozzles.size(); ++n) {
+    const Nozzle& nozzle = model_.nozzles[n];
+    const double content = at(model_.tanks, nozzle.tank).content;
+    for (std::size_t i = 0; i < model_.assembly.links.size(); ++i)
+      for (const MassElement& e : model_.assembly.links[i].elements)
+        if (e.tank == nozzle.tank)
+          model_.forces.streams.push_back({static_cast<int>(n), e.mass / content, nozzle.link,
+                                           static_cast<int>(i), nozzle.r_PL_L, e.r_EL_L,
+                                           e.I_PntE_L / e.mass});
+  }
 }
 
 void ModelBuilder::form_inertials() {

@@ -32,6 +32,9 @@ struct Mount {
   int body = 0;
   Matrix3d dcm_LM = Matrix3d::Identity();  // body to link components
   Vector3d r_ML_L = Vector3d::Zero();      // [m] the body's origin from the link's
+
+  /// A point given in the body's axes [m], from the link's origin in the link's.
+  Vector3d point_on_link(const Vector3d& r_PM_M) const { return r_ML_L + dcm_LM * r_PM_M; }
 };
 
 /// Bodies nested below the hub that MuJoCo's XML reader still loads: tinyxml2 stops at an element
@@ -99,6 +102,9 @@ class ModelBuilder {
   /// where the propellant of its tank takes no momentum along. @pre the tank was added
   void add_nozzle(const Mount& mount, Nozzle nozzle);
 
+  /// Forces that follow the motion of links: a component adds its own, in link axes.
+  Forces& forces() { return model_.forces; }
+
   /// Everything collected, with the tree's inertials formed from the ledger.
   Model build() &&;
 
@@ -113,6 +119,7 @@ class ModelBuilder {
   /// A massless wheel whose token is not taken out of the mount.
   bool is_on_top(const CarriedWheel& wheel) const;
   void form_inertials();
+  void form_streams();
   void take_tokens_out();
   void carry_wheel_tensors();
   void refuse_deep_chains();

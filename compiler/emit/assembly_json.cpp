@@ -149,6 +149,25 @@ Json list_json(const Items& items, Print print) {
   return list;
 }
 
+[[maybe_unused]] Json field_json(const Vector3d& value) { return vector_json(value); }
+[[maybe_unused]] Json field_json(const Matrix3d& value) { return matrix_json(value); }
+[[maybe_unused]] Json field_json(const auto& value) { return value; }
+
+/// Of the kinds that say their fields.
+void add_forces(const Forces& forces, Json& json) {
+  forces.for_each_kind([&json](const char* word, const auto& kind) {
+    using Force = typename std::decay_t<decltype(kind)>::value_type;
+    const auto print = [](const auto& force) {
+      Json fields = Json::object();
+      force.for_each_field(
+          [&fields](const char* name, const auto& value) { fields[name] = field_json(value); });
+      return fields;
+    };
+    if constexpr (requires(const Force& force) { force.for_each_field([](auto&&...) {}); })
+      if (!kind.empty()) json[word] = list_json(kind, print);
+  });
+}
+
 }  // namespace
 
 std::string emit_bsm(const Model& model) {
@@ -161,6 +180,7 @@ std::string emit_bsm(const Model& model) {
   json["loads"] = list_json(model.loads, load_json);
   if (!model.tanks.empty()) json["tanks"] = list_json(model.tanks, tank_json);
   if (!model.nozzles.empty()) json["nozzles"] = list_json(model.nozzles, nozzle_json);
+  add_forces(model.forces, json);
   json["gravity"] = {{"mu_m3_s2", model.gravity.mu}, {"law", word_of(model.gravity.bsm)}};
   json["initial"] = initial_json(model.initial);
   return json_text(json);

@@ -1,15 +1,18 @@
 // The forces that follow the motion of links, as data; what they do is said in
-// runtime/forces/list.h. Gravity and loads are not among them: see Gravity and Load in model.h.
+// runtime/forces/list.h. A kind of force is a struct, with the links that it acts on and, unless
+// the model says it all elsewhere, its fields for NAME.bsm.json; a member of Forces, and a line of
+// for_each_kind(). Gravity and loads are not among them: see Gravity and Load in model.h.
 #pragma once
 
 #include <array>
 #include <vector>
 
-#include "compiler/ir/model.h"
+#include "compiler/ir/mass.h"
 
 namespace twincraft {
 
-/// Propellant on its way from an element of a tank to a nozzle.
+/// Propellant on its way from an element of a tank to a nozzle. Nozzles, tanks and elements say it
+/// all; the builder forms it of them.
 struct Stream {
   int nozzle = 0;       // Model::nozzles entry
   double part = 0.0;    // of the nozzle's flow
@@ -24,9 +27,13 @@ struct Stream {
 
 struct Forces {
   std::vector<Stream> streams;
-};
 
-Forces forces_of(const Model& model);
+  /// @param each  takes the word for a kind and all forces of it
+  template <class Each>
+  void for_each_kind(const Each& each) const {
+    each("streams", streams);
+  }
+};
 
 /// Every link that one of them acts on, once, ascending.
 std::vector<int> links_of(const Forces& forces);

@@ -9,6 +9,7 @@
 
 #include "compiler/ir/assembly.h"
 #include "compiler/ir/body_tree.h"
+#include "compiler/ir/forces.h"
 #include "compiler/ir/propellant.h"
 #include "compiler/ir/stored.h"
 
@@ -143,6 +144,7 @@ struct Model {
   std::vector<Load> loads;
   std::vector<Tank> tanks;
   std::vector<Nozzle> nozzles;  // of the tanks whose propellant leaves as a jet, and only those
+  Forces forces;                // that follow the motion of links
   Gravity gravity;
   VehicleState initial;  // at t = 0; both engines start here
   SimulationPlan simulation;

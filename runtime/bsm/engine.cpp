@@ -35,7 +35,7 @@ class BsmEngine final : public Engine {
                 static_cast<int>(model.assembly.rotors.size())},
         held_(HeldInputs::none(model.assembly)),
         plan_(make_plan(model.assembly, model.engines.attitude, model.gravity, model.loads,
-                        model.engines.chains, forces_of(model))),
+                        model.engines.chains, model.forces)),
         kernel_(make_kernel(plan_, set)),
         link_forces_(plan_.forces, inputs_at(model, 0.0)),
         motion_(at_rest(plan_.tree)),

@@ -119,7 +119,7 @@ class MujocoEngine final : public Engine {
   DrainingBodies draining_;
   WrenchProjector projector_;
   ForceModel forces_;
-  const twincraft::Forces force_data_;
+  const Forces force_data_;
   LinkForces link_forces_;
   std::vector<double> held_;     // held efforts and motor torques, per MuJoCo dof
   std::vector<double> applied_;  // inputs and projected wrenches
@@ -144,7 +144,7 @@ MujocoEngine::MujocoEngine(const Model& model, const std::string& mjcf)
       draining_(model, *model_),
       projector_(*model_, map_),
       forces_(model, law_, gravity_elements(model), field_frame(model.engines.frame)),
-      force_data_(forces_of(model)),
+      force_data_(model.forces),
       link_forces_(force_data_, inputs_at(model, 0.0)),
       held_(static_cast<std::size_t>(model_->nv)),
       applied_(held_.size()),
