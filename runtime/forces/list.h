@@ -7,6 +7,7 @@
 #include <tuple>
 #include <vector>
 
+#include "runtime/forces/plate.h"
 #include "runtime/forces/stream.h"
 
 namespace twincraft::TWINCRAFT_KERNEL {
@@ -19,7 +20,8 @@ struct ForceKind {
 };
 
 template <class S>
-using ForceKinds = std::tuple<ForceKind<StreamLaw<S>, Stream, &Forces::streams>>;
+using ForceKinds = std::tuple<ForceKind<StreamLaw<S>, Stream, &Forces::streams>,
+                              ForceKind<PlateLaw<S>, Plate, &Forces::plates>>;
 
 /// All of them that a vehicle has.
 template <class S>
