@@ -25,37 +25,13 @@ struct Stream {
   std::array<int, 2> links() const { return {nozzle_link, element_link}; }
 };
 
-/// A flat plate in a flow.
-struct Plate {
-  std::string name;
-  int link = 0;
-  Vector3d r_PL_L, normal_L;  // [m], unit
-  double strength = 0.0;      // [kg/m] half of density, coefficient and area
-  double growth = 0.0;        // [1/s]
-  double turn = 0.0;          // [rad/s]
-
-  std::array<int, 1> links() const { return {link}; }
-  template <class Each>
-  void for_each_field(const Each& each) const {
-    each("name", name);
-    each("link", link);
-    each("r_PL_L_m", r_PL_L);
-    each("normal_L", normal_L);
-    each("strength_kg_m", strength);
-    each("growth_1_s", growth);
-    each("turn_rad_s", turn);
-  }
-};
-
 struct Forces {
   std::vector<Stream> streams;
-  std::vector<Plate> plates;
 
   /// @param each  takes the word for a kind and all forces of it
   template <class Each>
   void for_each_kind(const Each& each) const {
     each("streams", streams);
-    each("plates", plates);
   }
 };
 

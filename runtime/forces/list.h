@@ -7,7 +7,6 @@
 #include <tuple>
 #include <vector>
 
-#include "runtime/forces/plate.h"
 #include "runtime/forces/stream.h"
 
 namespace twincraft::TWINCRAFT_KERNEL {
@@ -20,8 +19,7 @@ struct ForceKind {
 };
 
 template <class S>
-using ForceKinds = std::tuple<ForceKind<StreamLaw<S>, Stream, &Forces::streams>,
-                              ForceKind<PlateLaw<S>, Plate, &Forces::plates>>;
+using ForceKinds = std::tuple<ForceKind<StreamLaw<S>, Stream, &Forces::streams>>;
 
 /// All of them that a vehicle has.
 template <class S>
