@@ -64,9 +64,10 @@ std::string verdict_words(const Report& report) {
     case Verdict::kDisagree:
       return capitalised(exceeded_words(report.summary()->exceeded()));
     case Verdict::kUnresolved:
-      return "Unresolved";
+      return report.study ? "Members are not resolved"
+                          : "The run does not resolve the vehicle's motion";
     case Verdict::kFailed:
-      return "Failed";
+      return report.study ? "Members failed" : "The run failed";
     case Verdict::kInterrupted:
       return "Interrupted";
     case Verdict::kNotJudged:
