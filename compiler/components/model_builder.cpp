@@ -192,7 +192,7 @@ int ModelBuilder::add_wheel(const Mount& mount, const Rotor& rotor, const MassEl
 void ModelBuilder::add_coordinate(Coordinate::Kind kind, const std::string& name, int index,
                                   double position, double rate) {
   model_.coordinates.push_back({name, kind, index});
-  if (kind == Coordinate::Kind::kWheel) {
+  if (model_.coordinates.back().is_wheel()) {
     put(model_.initial.wheel_rate, index, rate);
   } else {
     put(model_.initial.joint_position, index - 1, position);

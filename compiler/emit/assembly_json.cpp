@@ -81,29 +81,10 @@ Json rotor_json(const Rotor& rotor) {
           {"torque_N_m", schedule_json(rotor.torque)}};
 }
 
-const char* kind_word(Coordinate::Kind kind) {
-  switch (kind) {
-    case Coordinate::Kind::kPanel:
-      return "panel";
-    case Coordinate::Kind::kBodyAngle:
-      return "body_angle";
-    case Coordinate::Kind::kBodyDisplacement:
-      return "body_displacement";
-    case Coordinate::Kind::kParticle:
-      return "particle";
-    case Coordinate::Kind::kPendulum:
-      return "pendulum";
-    case Coordinate::Kind::kWheel:
-      return "wheel";
-  }
-  return "";
-}
-
 Json coordinate_json(const Coordinate& coordinate) {
-  const bool wheel = coordinate.kind == Coordinate::Kind::kWheel;
   return {{"name", coordinate.name},
-          {"kind", kind_word(coordinate.kind)},
-          {wheel ? "rotor" : "link", coordinate.index}};
+          {"kind", kind_of(coordinate).word},
+          {coordinate.is_wheel() ? "rotor" : "link", coordinate.index}};
 }
 
 Json load_json(const Load& load) {

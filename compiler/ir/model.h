@@ -9,21 +9,12 @@
 
 #include "compiler/ir/assembly.h"
 #include "compiler/ir/body_tree.h"
+#include "compiler/ir/coordinate.h"
 #include "compiler/ir/forces.h"
 #include "compiler/ir/propellant.h"
 #include "compiler/ir/stored.h"
 
 namespace twincraft {
-
-/// A coordinate of the vehicle, in the order of the spec. A hinge or slide is link `index` of the
-/// assembly (its q is entry index - 1 of the joint vector); a wheel is rotor `index`, rate only.
-struct Coordinate {
-  enum class Kind { kPanel, kBodyAngle, kBodyDisplacement, kParticle, kPendulum, kWheel };
-  std::string name;  // `wing_p.1`, `rw_x`, `bob.phi`
-  Kind kind = Kind::kPanel;
-  int index = 0;
-  bool is_length() const { return kind == Kind::kBodyDisplacement || kind == Kind::kParticle; }
-};
 
 /// A force and a torque fixed in a link's axes. Intervals are already folded into the schedules.
 struct Load {

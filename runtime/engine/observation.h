@@ -2,7 +2,7 @@
 // engine, whatever its state vector looks like. All comparison happens on these.
 #pragma once
 
-#include "compiler/ir/model.h"
+#include "compiler/ir/signals.h"
 
 namespace twincraft {
 
@@ -26,6 +26,16 @@ struct Observation : VehicleState {
   double momentum_scale = 0.0;
   double H_scale = 0.0;
 };
+
+/// @pre not of a wheel, whose angle nobody knows
+inline double position_of(const Coordinate& coordinate, const Observation& seen) {
+  return seen.joint_position[coordinate.entry()];
+}
+inline double rate_of(const Coordinate& coordinate, const Observation& seen) {
+  return (coordinate.is_wheel() ? seen.wheel_rate : seen.joint_rate)[coordinate.entry()];
+}
+/// One number of an output: the only place that knows where it is.
+double value_of(const OutputSignal& output, std::size_t component, const Observation& seen);
 
 /// Rates of what changes the books from outside; integrated beside the state in a recorded run.
 struct BookRates {

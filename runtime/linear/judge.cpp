@@ -135,7 +135,7 @@ std::optional<Finding> Judge::pole_at_the_end() const {
     if (coordinate.kind != Coordinate::Kind::kPendulum || !coordinate.name.ends_with(".theta"))
       continue;
     for (const Observation& end : ends) {
-      const double theta = end.joint_position[static_cast<std::size_t>(coordinate.index - 1)];
+      const double theta = position_of(coordinate, end);
       if (std::abs(std::cos(theta)) < kNearPole)
         return Finding{ResolutionRule::kRotation, 1.0, coordinate.name, std::nullopt,
                        fmt::format("{} is {:.3g} deg at t = {:.9g} s, near its pole, where phi "
@@ -154,8 +154,8 @@ std::optional<Finding> Judge::fastest_at_the_end() {
   Finding finding{ResolutionRule::kRotation, 1.0, "rotation", std::nullopt, "the hub"};
   double rate = last.omega_BN_B.norm();  // [rad/s]
   for (const Coordinate& coordinate : model_.coordinates) {
-    if (coordinate.kind == Coordinate::Kind::kWheel || coordinate.is_length()) continue;
-    const double turns = std::abs(last.joint_rate[static_cast<std::size_t>(coordinate.index - 1)]);
+    if (coordinate.is_wheel() || coordinate.is_length()) continue;
+    const double turns = std::abs(rate_of(coordinate, last));
     if (turns <= rate) continue;
     rate = turns;
     finding.coordinate = finding.text = coordinate.name;

@@ -70,7 +70,6 @@ class Judge {
   std::optional<Finding> fastest_at_the_end();
   std::string cure(const Resolution& resolution) const;
   Resolution told() const;
-  std::string joint_name(std::size_t joint) const;
   double amplitude_of(std::size_t joint) const;
 
   const Model& model_;

@@ -24,22 +24,18 @@ Model in_deep_space(const Model& model) {
   return own;
 }
 
-std::string name_of(const Model& model, bool is_wheel, int index) {
-  for (const Coordinate& coordinate : model.coordinates)
-    if ((coordinate.kind == Coordinate::Kind::kWheel) == is_wheel && coordinate.index == index)
-      return coordinate.name;
-  return {};
-}
-
+/// Of every entry of x.
 std::vector<std::string> coordinates_of(const Model& model, int joints, int wheels) {
   std::vector<std::string> names;
   const auto add_joints = [&] {
-    for (int joint = 1; joint <= joints; ++joint) names.push_back(name_of(model, false, joint));
+    for (int joint = 0; joint < joints; ++joint)
+      names.push_back(joint_name(model, static_cast<std::size_t>(joint)));
   };
   add_joints();
   names.insert(names.end(), 3, "rotation");
   add_joints();
-  for (int wheel = 0; wheel < wheels; ++wheel) names.push_back(name_of(model, true, wheel));
+  for (int wheel = 0; wheel < wheels; ++wheel)
+    names.push_back(wheel_name(model, static_cast<std::size_t>(wheel)));
   return names;
 }
 

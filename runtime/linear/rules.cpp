@@ -39,14 +39,6 @@ const Observation* shown_at(std::span<const Observation> instants, double time) 
 
 }  // namespace
 
-std::string Judge::joint_name(std::size_t joint) const {
-  for (const Coordinate& coordinate : model_.coordinates)
-    if (coordinate.kind != Coordinate::Kind::kWheel &&
-        static_cast<std::size_t>(coordinate.index) == joint + 1)
-      return coordinate.name;
-  return {};
-}
-
 double Judge::amplitude_of(std::size_t joint) const {
   return std::max(run_.motion->half_range(static_cast<int>(joint)), kLeastMotion);
 }
@@ -189,12 +181,13 @@ void Judge::note_joint(ResolutionRule rule, std::size_t joint, double error,
                        std::string_view what) {
   if (error > worst_error_) {
     worst_error_ = error;
-    worst_coordinate_ = joint_name(joint);
+    worst_coordinate_ = joint_name(model_, joint);
   }
   if (error <= kErrorLimit) return;
-  findings_.push_back({rule, error / kErrorLimit, joint_name(joint), error,
-                       fmt::format("{}: {} {} of its motion (limit {:.0f} %)", joint_name(joint),
-                                   what, loss_words(error), 100.0 * kErrorLimit)});
+  findings_.push_back(
+      {rule, error / kErrorLimit, joint_name(model_, joint), error,
+       fmt::format("{}: {} {} of its motion (limit {:.0f} %)", joint_name(model_, joint), what,
+                   loss_words(error), 100.0 * kErrorLimit)});
 }
 
 void Judge::judge_center(const std::vector<Probe>& probes) {

@@ -1,4 +1,3 @@
-// Columns are listed once, header and value together. Tested by tests/runtime/report_test.cpp.
 #include "runtime/report/csv.h"
 
 #include <fmt/format.h>
@@ -6,9 +5,6 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <functional>
-
-#include "runtime/report/printed_time.h"
 
 namespace twincraft {
 namespace {
@@ -26,65 +22,31 @@ void append_cell(double value, std::string& text) {
 
 }  // namespace
 
-void CsvLines::add_vector(const std::string& name, const std::string& unit,
-                          Vector3d Observation::*vector, std::vector<Column>& columns) {
-  for (int i = 0; i < 3; ++i)
-    columns.push_back({fmt::format("{}.{} [{}]", name, "xyz"[i], unit),
-                       [vector, i](const Observation& sample) { return (sample.*vector)[i]; }});
+CsvLines::CsvLines(const Model& model)
+    : outputs_(outputs_of(model)), printed_time_(model.simulation.step) {}
+
+std::string CsvLines::header() const {
+  std::string text = "t [s]";
+  for (const OutputSignal& output : outputs_)
+    for (std::size_t i = 0; i < output.size(); ++i)
+      text += fmt::format(",{} [{}]", output.component(i), output.unit);
+  return text + '\n';
 }
 
-void CsvLines::add_quaternion(std::vector<Column>& columns) {
-  columns.push_back({"q_BN.w [1]", [](const Observation& sample) { return sample.q_BN.w(); }});
-  for (int i = 0; i < 3; ++i)
-    columns.push_back({fmt::format("q_BN.{} [1]", "xyz"[i]),
-                       [i](const Observation& sample) { return sample.q_BN.vec()[i]; }});
-}
-
-void CsvLines::add_coordinate(const Coordinate& coordinate, std::vector<Column>& columns) {
-  if (coordinate.kind == Coordinate::Kind::kWheel) {
-    const auto wheel = static_cast<std::size_t>(coordinate.index);
-    columns.push_back({coordinate.name + ".rate [rad/s]",
-                       [wheel](const Observation& sample) { return sample.wheel_rate[wheel]; }});
-    return;
-  }
-  const auto joint = static_cast<std::size_t>(coordinate.index - 1);
-  const std::string unit = coordinate.is_length() ? "m" : "rad";
-  columns.push_back({fmt::format("{}.position [{}]", coordinate.name, unit),
-                     [joint](const Observation& sample) { return sample.joint_position[joint]; }});
-  columns.push_back({fmt::format("{}.rate [{}/s]", coordinate.name, unit),
-                     [joint](const Observation& sample) { return sample.joint_rate[joint]; }});
-}
-
-std::vector<CsvLines::Column> CsvLines::columns_of(const Model& model) {
-  std::vector<Column> columns;
-  columns.push_back({"t [s]", [printed = PrintedTime(model.simulation.step)](
-                                  const Observation& sample) { return printed(sample.time); }});
-  add_vector("r_BN_N", "m", &Observation::r_BN_N, columns);
-  add_vector("v_BN_N", "m/s", &Observation::v_BN_N, columns);
-  add_quaternion(columns);
-  add_vector("omega_BN_B", "rad/s", &Observation::omega_BN_B, columns);
-  add_vector("r_CN_N", "m", &Observation::r_CN_N, columns);
-  add_vector("v_CN_N", "m/s", &Observation::v_CN_N, columns);
-  for (const Coordinate& coordinate : model.coordinates) add_coordinate(coordinate, columns);
-  columns.push_back({"mass [kg]", [](const Observation& sample) { return sample.mass; }});
+std::size_t CsvLines::columns() const {
+  std::size_t columns = 1;
+  for (const OutputSignal& output : outputs_) columns += output.size();
   return columns;
 }
 
-CsvLines::CsvLines(const Model& model) : columns_(columns_of(model)) {}
-
-std::string CsvLines::header() const {
-  std::string text;
-  for (const Column& column : columns_) (text += column.header) += ',';
-  text.back() = '\n';
-  return text;
-}
-
 void CsvLines::append(const Observation& sample, std::string& text) const {
-  for (const Column& column : columns_) {
-    append_cell(column.value(sample), text);
-    text += ',';
-  }
-  text.back() = '\n';
+  append_cell(printed_time_(sample.time), text);
+  for (const OutputSignal& output : outputs_)
+    for (std::size_t i = 0; i < output.size(); ++i) {
+      text += ',';
+      append_cell(value_of(output, i, sample), text);
+    }
+  text += '\n';
 }
 
 std::string trajectory_csv(const Model& model, const Trajectory& trajectory) {

@@ -2,11 +2,11 @@
 // be compared line by line.  Tested by tests/runtime/report_test.cpp.
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 
-#include "compiler/ir/model.h"
+#include "compiler/ir/signals.h"
+#include "runtime/report/printed_time.h"
 #include "runtime/simulate/propagate.h"
 
 namespace twincraft {
@@ -19,20 +19,11 @@ class CsvLines {
 
   std::string header() const;  // `name [unit]` of every column
   void append(const Observation& sample, std::string& text) const;
-  std::size_t columns() const { return columns_.size(); }
+  std::size_t columns() const;
 
  private:
-  struct Column {
-    std::string header;
-    std::function<double(const Observation&)> value;
-  };
-  static std::vector<Column> columns_of(const Model& model);
-  static void add_vector(const std::string& name, const std::string& unit,
-                         Vector3d Observation::*vector, std::vector<Column>& columns);
-  static void add_quaternion(std::vector<Column>& columns);
-  static void add_coordinate(const Coordinate& coordinate, std::vector<Column>& columns);
-
-  std::vector<Column> columns_;
+  std::vector<OutputSignal> outputs_;
+  PrintedTime printed_time_;
 };
 
 /// A header and one line per sample.

@@ -2,6 +2,7 @@
 // Tested by tests/runtime/report_test.cpp.
 #include "runtime/report/json.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "runtime/report/attribution_json.h"
@@ -18,8 +19,6 @@ template <typename T>
 Json or_null(const std::optional<T>& value) {
   return value ? Json(*value) : Json(nullptr);
 }
-
-Json vector_json(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 Json spec_json(const Bundle& bundle) {
   return {{"name", bundle.model.name},
@@ -66,26 +65,42 @@ Json resolved_json(const Bundle& bundle) {
 Json coordinates_json(const Model& model, const Observation& sample) {
   Json coordinates = Json::object();
   for (const Coordinate& coordinate : model.coordinates) {
-    const auto index = static_cast<std::size_t>(coordinate.index);
-    if (coordinate.kind == Coordinate::Kind::kWheel)
-      coordinates[coordinate.name] = {{"rate", sample.wheel_rate[index]}};
-    else
-      coordinates[coordinate.name] = {{"position", sample.joint_position[index - 1]},
-                                      {"rate", sample.joint_rate[index - 1]}};
+    Json& json = coordinates[coordinate.name];
+    if (!coordinate.is_wheel()) json["position"] = position_of(coordinate, sample);
+    json["rate"] = rate_of(coordinate, sample);
   }
   return coordinates;
 }
 
+/// `r_BN_N_m`, `omega_BN_B_rad_s`; what has no unit goes by its name.
+std::string key_with_unit(const Signal& signal) {
+  if (signal.unit == "1") return signal.name;
+  std::string unit = signal.unit;
+  std::ranges::replace(unit, '/', '_');
+  return signal.name + '_' + unit;
+}
+
+Json output_json(const OutputSignal& output, const Observation& sample) {
+  if (output.axes.empty()) return value_of(output, 0, sample);
+  Json json = Json::array();
+  for (std::size_t i = 0; i < output.size(); ++i) json.push_back(value_of(output, i, sample));
+  return json;
+}
+
 Json final_json(const Model& model, const Observation& sample) {
-  const Quaterniond& q = sample.q_BN;
-  return {{"r_BN_N_m", vector_json(sample.r_BN_N)},
-          {"v_BN_N_m_s", vector_json(sample.v_BN_N)},
-          {"r_CN_N_m", vector_json(sample.r_CN_N)},
-          {"v_CN_N_m_s", vector_json(sample.v_CN_N)},
-          {"q_BN", {q.w(), q.x(), q.y(), q.z()}},
-          {"omega_BN_B_rad_s", vector_json(sample.omega_BN_B)},
-          {"coordinates", coordinates_json(model, sample)},
-          {"mass_kg", sample.mass}};
+  using Of = OutputSignal::Of;
+  const std::vector<OutputSignal> outputs = outputs_of(model);
+  Json json = Json::object();
+  const auto add = [&](Of of) {
+    const OutputSignal& output = *std::ranges::find(outputs, of, &OutputSignal::of);
+    json[key_with_unit(output)] = output_json(output, sample);
+  };
+  for (const Of of : {Of::kHubPosition, Of::kHubVelocity, Of::kComPosition, Of::kComVelocity,
+                      Of::kAttitude, Of::kHubRate})
+    add(of);
+  json["coordinates"] = coordinates_json(model, sample);
+  add(Of::kMass);
+  return json;
 }
 
 std::string status_name(EngineRun::Status status) {

@@ -1,4 +1,4 @@
-// Variables are listed once, then defined, then written. Tested by tests/runtime/netcdf_test.cpp.
+// Variables are defined, then written. Tested by tests/runtime/netcdf_test.cpp.
 #include "runtime/report/netcdf.h"
 
 #include <fmt/format.h>
@@ -22,59 +22,30 @@ void check(int status) {
 
 struct Variable {
   std::string name, unit, words;
-  int components = 1;  // 1, 3 or 4
-  std::function<double(const Observation&, int component)> value;
+  std::size_t components = 1;  // 1, 3 or 4
+  std::function<double(const Observation&, std::size_t component)> value;
   int id = -1;
   std::vector<double> waiting = {};  // of samples that are not yet in the file
 };
 
-Variable vector_variable(const char* name, const char* unit, const char* words,
-                         Vector3d Observation::*vector) {
-  return {name, unit, words, 3, [vector](const Observation& o, int i) { return (o.*vector)[i]; }};
+/// `rad/s` as `rad s-1`, which is how the CF conventions write units.
+std::string as_product(std::string unit) {
+  if (const std::size_t per = unit.find('/'); per != std::string::npos)
+    unit = fmt::format("{} {}-1", unit.substr(0, per), unit.substr(per + 1));
+  return unit;
 }
 
-Variable scalar(std::string name, const char* unit, std::string words,
-                std::function<double(const Observation&)> value) {
-  return {std::move(name), unit, std::move(words), 1,
-          [value = std::move(value)](const Observation& o, int) { return value(o); }};
-}
-
-void add_coordinate(const Coordinate& coordinate, std::vector<Variable>& variables) {
-  const std::string& name = coordinate.name;
-  const auto index = static_cast<std::size_t>(coordinate.index);
-  if (coordinate.kind == Coordinate::Kind::kWheel) {
-    variables.push_back(scalar(name + ".rate", "rad s-1", "spin relative to the mount",
-                               [index](const Observation& o) { return o.wheel_rate[index]; }));
-    return;
-  }
-  const bool length = coordinate.is_length();
-  variables.push_back(
-      scalar(name + ".position", length ? "m" : "rad", length ? "displacement" : "angle",
-             [index](const Observation& o) { return o.joint_position[index - 1]; }));
-  variables.push_back(scalar(name + ".rate", length ? "m s-1" : "rad s-1",
-                             length ? "speed" : "rate of the angle",
-                             [index](const Observation& o) { return o.joint_rate[index - 1]; }));
+Variable variable_of(const OutputSignal& output) {
+  return {output.name, as_product(output.unit), output.meaning, output.size(),
+          [output](const Observation& o, std::size_t i) { return value_of(output, i, o); }};
 }
 
 std::vector<Variable> variables_of(const Model& model) {
   std::vector<Variable> variables{
-      scalar("time", "s", "time since the start",
-             [printed = PrintedTime(model.simulation.step)](const Observation& o) {
-               return printed(o.time);
-             }),
-      vector_variable("r_BN_N", "m", "hub origin, inertial axes", &Observation::r_BN_N),
-      vector_variable("v_BN_N", "m s-1", "velocity of the hub origin, inertial axes",
-                      &Observation::v_BN_N),
-      {"q_BN", "1", "quaternion, scalar first, takes hub components to inertial ones", 4,
-       [](const Observation& o, int i) { return i == 0 ? o.q_BN.w() : o.q_BN.vec()[i - 1]; }},
-      vector_variable("omega_BN_B", "rad s-1", "hub rate relative to inertial axes, hub axes",
-                      &Observation::omega_BN_B),
-      vector_variable("r_CN_N", "m", "system centre of mass, inertial axes", &Observation::r_CN_N),
-      vector_variable("v_CN_N", "m s-1", "velocity of the system centre of mass, inertial axes",
-                      &Observation::v_CN_N)};
-  for (const Coordinate& coordinate : model.coordinates) add_coordinate(coordinate, variables);
-  variables.push_back(
-      scalar("mass", "kg", "mass of the vehicle", [](const Observation& o) { return o.mass; }));
+      {"time", "s", "time since the start", 1,
+       [printed = PrintedTime(model.simulation.step)](
+           const Observation& o, std::size_t /*component*/) { return printed(o.time); }}};
+  for (const OutputSignal& output : outputs_of(model)) variables.push_back(variable_of(output));
   return variables;
 }
 
@@ -144,15 +115,15 @@ constexpr std::size_t kSamplesPerChunk = 1024;
 void define_variable(const File& file, int time, int components, Variable& variable) {
   const std::array<int, 2> dimensions{time, components};
   const int count = variable.components == 1 ? 1 : 2;
-  const auto width = static_cast<std::size_t>(variable.components);
   check(nc_def_var(file.id(), variable.name.c_str(), NC_DOUBLE, count, dimensions.data(),
                    &variable.id));
-  const std::array<std::size_t, 2> chunk{kSamplesPerChunk, width};
+  const std::array<std::size_t, 2> chunk{kSamplesPerChunk, variable.components};
   check(nc_def_var_chunking(file.id(), variable.id, NC_CHUNKED, chunk.data()));
   check(nc_def_var_deflate(file.id(), variable.id, 1, 1, 1));
   // A chunk is written once, so two in memory are enough; by default there are sixteen megabytes.
   check(nc_set_var_chunk_cache(file.id(), variable.id,
-                               2 * kSamplesPerChunk * width * sizeof(double), 3, 1.0F));
+                               2 * kSamplesPerChunk * variable.components * sizeof(double), 3,
+                               1.0F));
   file.attribute(variable.id, "units", variable.unit);
   file.attribute(variable.id, "long_name", variable.words);
 }
@@ -178,7 +149,7 @@ class NetcdfFile::Contents {
 
   void take(const Observation& sample) {
     for (Variable& variable : variables_)
-      for (int i = 0; i < variable.components; ++i)
+      for (std::size_t i = 0; i < variable.components; ++i)
         variable.waiting.push_back(variable.value(sample, i));
     if (++waiting_ < kSamplesPerChunk) return;
     const std::scoped_lock lock(library());
@@ -194,8 +165,7 @@ class NetcdfFile::Contents {
   void flush() {
     for (Variable& variable : variables_) {
       const std::array<std::size_t, 2> start{written_, 0};
-      const std::array<std::size_t, 2> count{waiting_,
-                                             static_cast<std::size_t>(variable.components)};
+      const std::array<std::size_t, 2> count{waiting_, variable.components};
       if (waiting_ > 0)
         check(nc_put_vara_double(file_.id(), variable.id, start.data(), count.data(),
                                  variable.waiting.data()));

@@ -44,10 +44,10 @@ bool has(const Model& model, Kind kind) {
 }
 
 /// Components, not coordinates: `wing_p.1` and `wing_p.2` are one panel.
-std::size_t count_components(const Model& model, std::initializer_list<Kind> kinds) {
+std::size_t count_components(const Model& model, std::string_view word) {
   std::set<std::string> names;
   for (const Coordinate& coordinate : model.coordinates)
-    if (std::find(kinds.begin(), kinds.end(), coordinate.kind) != kinds.end())
+    if (kind_of(coordinate).one == word)
       names.insert(coordinate.name.substr(0, coordinate.name.find('.')));
   return names.size();
 }
@@ -79,16 +79,12 @@ MetricWords words_of(std::string_view key, const Model& model) {
 std::string vehicle_words(const Model& model) {
   std::string text = fmt::format("{} DOF: {}", model.degrees_of_freedom(),
                                  model.simulation.translation ? "point mass" : "hub");
-  const auto add = [&](std::string_view one, std::string_view many,
-                       std::initializer_list<Kind> kinds) {
-    const std::size_t count = count_components(model, kinds);
-    if (count > 0) text += fmt::format(", {} {}", count, count == 1 ? one : many);
-  };
-  add("wheel", "wheels", {Kind::kWheel});
-  add("panel", "panels", {Kind::kPanel});
-  add("jointed body", "jointed bodies", {Kind::kBodyAngle, Kind::kBodyDisplacement});
-  add("slosh particle", "slosh particles", {Kind::kParticle});
-  add("slosh pendulum", "slosh pendulums", {Kind::kPendulum});
+  std::string_view told;
+  for (const CoordinateKind& kind : kCoordinateKinds) {
+    if (kind.one == std::exchange(told, kind.one)) continue;
+    const std::size_t count = count_components(model, kind.one);
+    if (count > 0) text += fmt::format(", {} {}", count, count == 1 ? kind.one : kind.many);
+  }
   return text;
 }
 

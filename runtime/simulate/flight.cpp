@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <utility>
 
@@ -17,37 +18,15 @@ constexpr std::size_t kBooks = 8;
 
 bool is_adaptive(const Model& model) { return tableau_of(model.simulation.method).adaptive; }
 
-std::string coordinate_name(const Model& model, bool is_wheel, int index) {
-  for (const Coordinate& coordinate : model.coordinates) {
-    const bool names_wheel = coordinate.kind == Coordinate::Kind::kWheel;
-    if (names_wheel == is_wheel && coordinate.index == index) return coordinate.name;
-  }
-  return fmt::format("{} {}", is_wheel ? "wheel" : "joint", index);
-}
-
-/// A name for every entry of the state and the books behind it, as in the CSV files.
-std::vector<std::string> state_names(const Model& model, const StateLayout& layout) {
-  std::vector<std::string> names;
-  const auto add = [&names](std::string_view vector, std::string_view components) {
-    for (const char component : components)
-      names.push_back(fmt::format("{}.{}", vector, component));
-  };
-  add("r_BN_N", "xyz");
-  add("v_BN_N", "xyz");
-  if (layout.attitude_size() == 3) add("sigma_BN", "123");
-  if (layout.attitude_size() == 4) add("q_BN", "wxyz");
-  if (layout.rate_size() > 0) add("omega_BN_B", "xyz");
-  for (const char* quantity : {"position", "rate"}) {
-    for (int link = 1; link <= layout.joints; ++link)
-      names.push_back(coordinate_name(model, false, link) + "." + quantity);
-  }
-  for (int rotor = 0; rotor < layout.wheels; ++rotor)
-    names.push_back(coordinate_name(model, true, rotor) + ".rate");
-  names.push_back("work");
-  add("impulse_N", "xyz");
-  add("angular_impulse_N", "xyz");
-  names.push_back("own_work");
-  return names;
+/// A name for every entry of the state and the books behind it.
+std::vector<std::string> entry_names(const Model& model) {
+  std::vector<Signal> entries = states_of(model);
+  const std::array<Signal, 4> books{{{"work", "", "J", ""},
+                                     {"impulse_N", "xyz", "N s", ""},
+                                     {"angular_impulse_N", "xyz", "N m s", ""},
+                                     {"own_work", "", "J", ""}}};
+  entries.insert(entries.end(), books.begin(), books.end());
+  return component_names(entries);
 }
 
 /// Inputs change there, or a stored state waits: a run has to meet what it is held against.
@@ -114,7 +93,7 @@ Flight::Flight(Engine& engine, const Model& model, FlightOptions options)
                                : std::make_unique<EngineOde>(engine)),
       excusing_(is_adaptive(model) ? std::make_unique<ExcusingOde>(*ode_) : nullptr),
       stepper_(tableau_of(model.simulation.method), excusing_ ? *excusing_ : *ode_),
-      names_(state_names(model, engine.layout())),
+      names_(entry_names(model)),
       control_(engine.layout(), model.simulation.tolerance, names_),
       landings_(
           model.simulation.step,

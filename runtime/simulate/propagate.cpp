@@ -29,14 +29,13 @@ void refuse_absurd(const Observation& seen, const Model& model) {
     refuse("omega_BN_B", seen.omega_BN_B.norm(), "rad/s");
   if (!(seen.v_BN_N.norm() < kAbsurdSpeed)) refuse("v_BN_N", seen.v_BN_N.norm(), "m/s");
   for (const Coordinate& coordinate : model.coordinates) {
-    const auto index = static_cast<std::size_t>(coordinate.index);
-    const bool is_wheel = coordinate.kind == Coordinate::Kind::kWheel;
+    const CoordinateQuantity& quantity = coordinate.quantity();
     const bool slides = coordinate.is_length();
-    const double rate = is_wheel ? seen.wheel_rate[index] : seen.joint_rate[index - 1];
+    const double rate = rate_of(coordinate, seen);
     if (!(std::abs(rate) < (slides ? kAbsurdSpeed : kAbsurdRate)))
-      refuse(coordinate.name + ".rate", rate, slides ? "m/s" : "rad/s");
-    if (slides && !(std::abs(seen.joint_position[index - 1]) < kAbsurdDisplacement))
-      refuse(coordinate.name + ".position", seen.joint_position[index - 1], "m");
+      refuse(coordinate.name + ".rate", rate, quantity.rate_unit);
+    if (slides && !(std::abs(position_of(coordinate, seen)) < kAbsurdDisplacement))
+      refuse(coordinate.name + ".position", position_of(coordinate, seen), quantity.unit);
   }
 }
 

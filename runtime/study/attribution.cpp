@@ -179,33 +179,19 @@ void judge_remainder(const Variations& variations, std::size_t all, std::size_t 
     result.kind = Remainder::kMujocoRounding;
 }
 
-/// Whose unit the report has for joints of its kind.
-std::string metric_of(Coordinate::Kind kind) {
-  switch (kind) {
-    case Coordinate::Kind::kBodyDisplacement:
-      return "joint_m";
-    case Coordinate::Kind::kParticle:
-      return "slosh_m";
-    case Coordinate::Kind::kPendulum:
-      return "pendulum_deg";
-    default:
-      return "joint_deg";
-  }
-}
-
 /// @param steps  rounding adds up over them
 std::optional<Subject> worst_joint(const Model& model, const Trajectory& a, const Trajectory& b,
                                    double steps) {
   std::optional<Subject> worst;
   double largest = 0.0;  // in units of rounding
   for (const Coordinate& coordinate : model.coordinates) {
-    if (coordinate.kind == Coordinate::Kind::kWheel) continue;
-    const auto joint = static_cast<std::size_t>(coordinate.index - 1);
+    if (coordinate.is_wheel()) continue;
     double size = 0.0;
     for (const Observation& sample : a.samples)
-      size = std::max(size, std::abs(sample.joint_position[joint]));
-    Subject subject{metric_of(coordinate.kind), coordinate.is_length() ? 1.0 : kDegrees,
-                    kEpsilon * steps * size, joint, coordinate.name};
+      size = std::max(size, std::abs(position_of(coordinate, sample)));
+    Subject subject{std::string(kind_of(coordinate).metric),
+                    coordinate.is_length() ? 1.0 : kDegrees, kEpsilon * steps * size,
+                    coordinate.entry(), coordinate.name};
     const double off = error_of(subject, a, b).maximum();
     if (!(off > largest * subject.rounding)) continue;
     largest = off / subject.rounding;

@@ -1,4 +1,5 @@
-// Claims about the IR's own arithmetic: masses, schedules, numbers.
+// Claims about the IR's own arithmetic: masses, schedules, numbers; and about its names.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <charconv>
@@ -8,6 +9,7 @@
 #include "compiler/ir/number.h"
 #include "compiler/ir/propellant.h"
 #include "compiler/ir/schedule.h"
+#include "compiler/ir/signals.h"
 
 namespace twincraft {
 namespace {
@@ -116,6 +118,63 @@ TEST(Number, IsTheShortestTextThatReadsBackEqual) {
     std::from_chars(text.data(), text.data() + text.size(), back);
     EXPECT_EQ(back, value);
   }
+}
+
+/// A wheel, a slide that the assembly has first, a hinge, a panel; a thruster and a load.
+Model named_model() {
+  using Kind = Coordinate::Kind;
+  Model model;
+  model.assembly.links.resize(4);
+  model.assembly.rotors.resize(1);
+  model.coordinates = {{"rw", Kind::kWheel, 0},
+                       {"wing.1", Kind::kPanel, 3},
+                       {"arm", Kind::kBodyAngle, 2},
+                       {"rail", Kind::kBodyDisplacement, 1}};
+  model.loads.resize(2);
+  model.loads[0].name = "engine";
+  model.loads[0].is_thruster = true;
+  model.loads[1].name = "push";
+  return model;
+}
+
+std::vector<std::string> names_and_units(const auto& signals) {
+  std::vector<std::string> texts;
+  for (const Signal& signal : signals) texts.push_back(signal.name + " [" + signal.unit + "]");
+  return texts;
+}
+
+TEST(Signals, NameOutputsInTheOrderOfTheSpec) {
+  EXPECT_THAT(
+      names_and_units(outputs_of(named_model())),
+      testing::ElementsAre("r_BN_N [m]", "v_BN_N [m/s]", "q_BN [1]", "omega_BN_B [rad/s]",
+                           "r_CN_N [m]", "v_CN_N [m/s]", "rw.rate [rad/s]", "wing.1.position [rad]",
+                           "wing.1.rate [rad/s]", "arm.position [rad]", "arm.rate [rad/s]",
+                           "rail.position [m]", "rail.rate [m/s]", "mass [kg]"));
+}
+
+TEST(Signals, NameStatesInTheOrderOfTheAssembly) {
+  Model model = named_model();
+  const std::vector<std::string> names = component_names(states_of(model));
+  EXPECT_THAT(
+      std::vector(names.begin() + 6, names.end()),
+      testing::ElementsAre("sigma_BN.1", "sigma_BN.2", "sigma_BN.3", "omega_BN_B.x", "omega_BN_B.y",
+                           "omega_BN_B.z", "rail.position", "arm.position", "wing.1.position",
+                           "rail.rate", "arm.rate", "wing.1.rate", "rw.rate"));
+  model.engines.attitude = AttitudeChart::kQuaternion;
+  EXPECT_EQ(component_names(states_of(model)).at(6), "q_BN.w");
+  model.simulation.translation = true;
+  EXPECT_THAT(component_names(states_of(model)), testing::SizeIs(6));
+}
+
+TEST(Signals, NameInputsOfAllThatASpecMayDrive) {
+  EXPECT_THAT(names_and_units(inputs_of(named_model())),
+              testing::ElementsAre("rw.torque [N m]", "arm.torque [N m]", "rail.force [N]",
+                                   "engine.thrust [N]", "push.force [N]", "push.torque [N m]"));
+}
+
+TEST(Coordinates, StandInTheirTableInTheOrderOfTheirKinds) {
+  for (std::size_t i = 0; i < kCoordinateKinds.size(); ++i)
+    EXPECT_EQ(static_cast<std::size_t>(kCoordinateKinds.at(i).kind), i);
 }
 
 }  // namespace

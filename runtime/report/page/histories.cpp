@@ -15,7 +15,6 @@ namespace twincraft {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using Kind = Coordinate::Kind;
 
 // What a page can hold: a screen has some 2000 columns of dots, and 300 000 numbers are 3.2 MB.
 constexpr std::size_t kMostPoints = 3000;
@@ -25,67 +24,33 @@ constexpr std::size_t kLeastPoints = 200;
 using Series = Histories::Series;
 using Figure = Histories::Figure;
 
-Figure vector_figure(const char* title, const char* unit, const char* metric,
-                     Vector3d Observation::*vector) {
-  Figure figure{title, unit, metric, {}};
-  for (int i = 0; i < 3; ++i)
-    figure.series.push_back(
-        {std::string(1, "xyz"[i]), [vector, i](const Observation& o) { return (o.*vector)[i]; }});
-  return figure;
-}
+/// What a figure shows: one vector, or the coordinates that some metrics compare.
+struct FigureRow {
+  const char *title, *unit, *metric;  // no metric: nothing judges it
+  OutputSignal::Of of;
+  std::vector<std::string_view> groups = {};  // metrics of the coordinates that belong here
+};
 
-Figure attitude_figure() {
-  Figure figure{"Attitude, quaternion from hub to inertial axes", "1", "attitude_deg", {}};
-  figure.series.push_back({"w", [](const Observation& o) { return o.q_BN.w(); }});
-  for (int i = 0; i < 3; ++i)
-    figure.series.push_back(
-        {std::string(1, "xyz"[i]), [i](const Observation& o) { return o.q_BN.vec()[i]; }});
-  return figure;
-}
-
-/// Positions or rates of the joints of some kinds.
-Figure joint_figure(const Model& model, Figure figure, std::vector<double> Observation::*values,
-                    double scale, std::initializer_list<Kind> kinds) {
-  for (const Coordinate& coordinate : model.coordinates) {
-    if (std::find(kinds.begin(), kinds.end(), coordinate.kind) == kinds.end()) continue;
-    const auto joint = static_cast<std::size_t>(coordinate.index - 1);
-    figure.series.push_back({coordinate.name, [values, joint, scale](const Observation& o) {
-                               return scale * (o.*values)[joint];
-                             }});
-  }
-  return figure;
-}
-
-Figure wheel_figure(const Model& model) {
-  Figure figure{"Wheel rates", "rad/s", "wheel_rate_rad_s", {}};
-  for (const Coordinate& coordinate : model.coordinates) {
-    if (coordinate.kind != Kind::kWheel) continue;
-    const auto wheel = static_cast<std::size_t>(coordinate.index);
-    figure.series.push_back(
-        {coordinate.name, [wheel](const Observation& o) { return o.wheel_rate[wheel]; }});
-  }
-  return figure;
-}
-
-std::vector<Figure> coordinate_figures(const Model& model) {
-  const auto position = &Observation::joint_position;
-  const auto rate = &Observation::joint_rate;
-  const std::initializer_list<Kind> angles = {Kind::kPanel, Kind::kBodyAngle};
-  return {
-      joint_figure(model, {"Panel and joint angles", "deg", "joint_deg", {}}, position, kDegrees,
-                   angles),
-      joint_figure(model, {"Joint travel", "m", "joint_m", {}}, position, 1.0,
-                   {Kind::kBodyDisplacement}),
-      wheel_figure(model),
-      joint_figure(model, {"Slosh displacements", "m", "slosh_m", {}}, position, 1.0,
-                   {Kind::kParticle}),
-      joint_figure(model, {"Pendulum angles", "deg", "pendulum_deg", {}}, position, kDegrees,
-                   {Kind::kPendulum}),
-      joint_figure(model, {"Panel and joint rates", "deg/s", "", {}}, rate, kDegrees, angles),
-      joint_figure(model, {"Joint speeds", "m/s", "", {}}, rate, 1.0,
-                   {Kind::kBodyDisplacement, Kind::kParticle}),
-      joint_figure(model, {"Pendulum rates", "deg/s", "", {}}, rate, kDegrees, {Kind::kPendulum}),
+/// In the order of the page.
+const std::vector<FigureRow>& figure_rows() {
+  using Of = OutputSignal::Of;
+  static const std::vector<FigureRow> rows{
+      {"Attitude, quaternion from hub to inertial axes", "1", "attitude_deg", Of::kAttitude},
+      {"Body rate, hub axes", "rad/s", "rate_rad_s", Of::kHubRate},
+      {"Panel and joint angles", "deg", "joint_deg", Of::kCoordinate, {"joint_deg"}},
+      {"Joint travel", "m", "joint_m", Of::kCoordinate, {"joint_m"}},
+      {"Wheel rates", "rad/s", "wheel_rate_rad_s", Of::kCoordinateRate, {"wheel_rate_rad_s"}},
+      {"Slosh displacements", "m", "slosh_m", Of::kCoordinate, {"slosh_m"}},
+      {"Pendulum angles", "deg", "pendulum_deg", Of::kCoordinate, {"pendulum_deg"}},
+      {"Panel and joint rates", "deg/s", "", Of::kCoordinateRate, {"joint_deg"}},
+      {"Joint speeds", "m/s", "", Of::kCoordinateRate, {"joint_m", "slosh_m"}},
+      {"Pendulum rates", "deg/s", "", Of::kCoordinateRate, {"pendulum_deg"}},
+      {"Hub position, inertial axes", "m", "position_m", Of::kHubPosition},
+      {"Hub velocity, inertial axes", "m/s", "velocity_m_s", Of::kHubVelocity},
+      {"System centre of mass, inertial axes", "m", "com_position_m", Of::kComPosition},
+      {"Mass", "kg", "mass_kg", Of::kMass},
   };
+  return rows;
 }
 
 bool is_constant(const Model& model) {
@@ -93,24 +58,48 @@ bool is_constant(const Model& model) {
                      [](const Tank& tank) { return tank.mass_flow.is_zero(); });
 }
 
-std::vector<Figure> figures_of(const Model& model) {
-  std::vector<Figure> figures;
-  if (!model.simulation.translation) {
-    figures.push_back(attitude_figure());
-    figures.push_back(
-        vector_figure("Body rate, hub axes", "rad/s", "rate_rad_s", &Observation::omega_BN_B));
+/// A point mass does not turn, and a mass that stays is no history.
+bool is_worth_showing(const OutputSignal& output, const Model& model) {
+  const bool turns =
+      output.of == OutputSignal::Of::kAttitude || output.of == OutputSignal::Of::kHubRate;
+  if (turns) return !model.simulation.translation;
+  return output.of != OutputSignal::Of::kMass || !is_constant(model);
+}
+
+bool belongs(const OutputSignal& output, const FigureRow& row) {
+  if (output.of != row.of) return false;
+  return !output.coordinate ||
+         std::ranges::count(row.groups, kind_of(*output.coordinate).metric) > 0;
+}
+
+/// Beside its figure's title a component needs no more than its axis.
+std::string short_name(const OutputSignal& output, std::size_t component) {
+  if (output.coordinate) return output.coordinate->name;
+  return output.axes.empty() ? output.name : std::string(1, output.axes[component]);
+}
+
+Figure figure_of(const FigureRow& row, const std::vector<OutputSignal>& outputs) {
+  Figure figure{row.title, row.unit, row.metric, {}};
+  const double scale = figure.unit.starts_with("deg") ? kDegrees : 1.0;
+  for (const OutputSignal& output : outputs) {
+    if (!belongs(output, row)) continue;
+    for (std::size_t i = 0; i < output.size(); ++i)
+      figure.series.push_back({short_name(output, i), [output, i, scale](const Observation& o) {
+                                 return scale * value_of(output, i, o);
+                               }});
   }
-  for (Figure& figure : coordinate_figures(model))
+  return figure;
+}
+
+std::vector<Figure> figures_of(const Model& model) {
+  std::vector<OutputSignal> outputs = outputs_of(model);
+  std::erase_if(outputs,
+                [&model](const OutputSignal& output) { return !is_worth_showing(output, model); });
+  std::vector<Figure> figures;
+  for (const FigureRow& row : figure_rows()) {
+    Figure figure = figure_of(row, outputs);
     if (!figure.series.empty()) figures.push_back(std::move(figure));
-  figures.push_back(
-      vector_figure("Hub position, inertial axes", "m", "position_m", &Observation::r_BN_N));
-  figures.push_back(
-      vector_figure("Hub velocity, inertial axes", "m/s", "velocity_m_s", &Observation::v_BN_N));
-  figures.push_back(vector_figure("System centre of mass, inertial axes", "m", "com_position_m",
-                                  &Observation::r_CN_N));
-  if (!is_constant(model))
-    figures.push_back(
-        {"Mass", "kg", "mass_kg", {{"mass", [](const Observation& o) { return o.mass; }}}});
+  }
   return figures;
 }
 

@@ -1,0 +1,60 @@
+// What a run shows, keeps and takes: every output, state and input by name, unit and meaning. CSV,
+// netCDF, report.json, the page and messages take them from here. Where an output is in a sample is
+// in runtime/engine/observation; where an input is in Inputs::u, in inputs.h.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "compiler/ir/model.h"
+
+namespace twincraft {
+
+/// A number or a vector of numbers.
+struct Signal {
+  std::string name;       // `omega_BN_B`, `wing_p.1.position`
+  std::string_view axes;  // of a vector: a letter per component; empty: one number
+  std::string unit;       // SI: `rad/s`; `1` where there is none
+  std::string meaning;
+
+  std::size_t size() const { return axes.empty() ? 1 : axes.size(); }
+  /// Name of one number: `omega_BN_B.x`, `wing_p.1.position`.
+  std::string component(std::size_t i) const;
+};
+
+/// A signal that a sample shows.
+struct OutputSignal : Signal {
+  enum class Of {
+    kHubPosition,
+    kHubVelocity,
+    kAttitude,
+    kHubRate,
+    kComPosition,
+    kComVelocity,
+    kCoordinate,
+    kCoordinateRate,
+    kMass
+  };
+  Of of = Of::kMass;
+  std::optional<Coordinate> coordinate = {};  // whose it is; none: the hub's or the vehicle's
+};
+
+/// In the order of the CSV's columns, time apart.
+std::vector<OutputSignal> outputs_of(const Model& model);
+/// In the order of an engine's state vector.
+std::vector<Signal> states_of(const Model& model);
+/// What may act by schedule: wheels and joints of bodies in the order of the spec, then thrusters
+/// and loads. All of them, whether or not the spec gives them a schedule.
+std::vector<Signal> inputs_of(const Model& model);
+
+/// The name of every number of `signals`.
+std::vector<std::string> component_names(const std::vector<Signal>& signals);
+
+/// Name of the coordinate that is an entry of the joint vector; `joint 3` where none is named.
+std::string joint_name(const Model& model, std::size_t joint);
+/// The same of the vector of wheels.
+std::string wheel_name(const Model& model, std::size_t wheel);
+
+}  // namespace twincraft
