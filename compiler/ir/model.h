@@ -105,7 +105,7 @@ struct ReferenceTolerances {
 };
 
 /// Tolerances of the verdict; absent: reported, not judged.
-struct Agreement {
+struct AgreementTolerances {
   // How far the engines may be apart.
   std::optional<double> attitude;  // [rad]
   std::optional<double> rate;      // [rad/s]
@@ -120,8 +120,10 @@ struct Agreement {
   std::optional<double> energy;
   std::optional<double> momentum;
   std::optional<double> angular_momentum;
-  // How far each engine may be from its references.
-  ReferenceTolerances references;
+};
+
+struct Agreement : AgreementTolerances {
+  ReferenceTolerances references;  // how far each engine may be from its references
 };
 
 enum class ReferenceKind { kKepler, kSpinUp, kTorqueFree, kTsiolkovsky, kStored };

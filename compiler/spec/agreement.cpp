@@ -75,6 +75,13 @@ const Table<ReferenceTolerancesSpec>& references_table() {
   return table;
 }
 
+Field<AgreementSpec> judged(std::string_view key,
+                            std::optional<double> AgreementTolerances::*tolerated,
+                            const Kind<std::optional<double>>& kind, std::string_view doc) {
+  std::optional<double> AgreementSpec::*member = tolerated;
+  return optional(key, member, kind, doc);
+}
+
 }  // namespace
 
 const Table<AgreementSpec>& agreement_table() {
@@ -84,34 +91,34 @@ const Table<AgreementSpec>& agreement_table() {
       "tolerance is reported but not judged. A tolerance for something that the vehicle does not "
       "have is ignored.",
       {
-          optional("attitude", &AgreementSpec::attitude, tolerance("rad"),
-                   "Principal angle between the attitudes of the two engines."),
-          optional("rate", &AgreementSpec::rate, tolerance("rad/s"),
-                   "Difference of the body rates."),
-          optional("position", &AgreementSpec::position, tolerance("m"),
-                   "Difference of the positions of the system centre of mass."),
-          optional("velocity", &AgreementSpec::velocity, tolerance("m/s"),
-                   "Difference of the velocities of the hub origin B."),
-          optional("joint", &AgreementSpec::joint, tolerance("rad"),
-                   "Difference of the joint angles: panels and revolute joints together by their "
-                   "Euclidean norm, pendulum angles by the largest. Prismatic joints are judged by "
-                   "`travel`."),
-          optional("travel", &AgreementSpec::travel, tolerance("m"),
-                   "Difference of the displacements of prismatic joints, by their Euclidean norm."),
-          optional("wheel", &AgreementSpec::wheel, tolerance("rad/s"),
-                   "Difference of the wheel speeds, by their Euclidean norm."),
-          optional("slosh", &AgreementSpec::slosh, tolerance("m"),
-                   "Difference of the slosh displacements, the largest."),
-          optional("mass", &AgreementSpec::mass, tolerance("kg"),
-                   "Difference of the masses of the whole vehicle."),
-          optional("energy", &AgreementSpec::energy, relative(),
-                   "Energy balance of each engine: its change less the work of all loads, relative "
-                   "to the energy."),
-          optional("momentum", &AgreementSpec::momentum, relative(),
-                   "Momentum balance of each engine: its change less the impulse of all loads, "
-                   "relative to the momenta in the vehicle."),
-          optional("angular_momentum", &AgreementSpec::angular_momentum, relative(),
-                   "The same balance of the angular momentum about the system centre of mass."),
+          judged("attitude", &AgreementTolerances::attitude, tolerance("rad"),
+                 "Principal angle between the attitudes of the two engines."),
+          judged("rate", &AgreementTolerances::rate, tolerance("rad/s"),
+                 "Difference of the body rates."),
+          judged("position", &AgreementTolerances::position, tolerance("m"),
+                 "Difference of the positions of the system centre of mass."),
+          judged("velocity", &AgreementTolerances::velocity, tolerance("m/s"),
+                 "Difference of the velocities of the hub origin B."),
+          judged("joint", &AgreementTolerances::joint, tolerance("rad"),
+                 "Difference of the joint angles: panels and revolute joints together by their "
+                 "Euclidean norm, pendulum angles by the largest. Prismatic joints are judged by "
+                 "`travel`."),
+          judged("travel", &AgreementTolerances::travel, tolerance("m"),
+                 "Difference of the displacements of prismatic joints, by their Euclidean norm."),
+          judged("wheel", &AgreementTolerances::wheel, tolerance("rad/s"),
+                 "Difference of the wheel speeds, by their Euclidean norm."),
+          judged("slosh", &AgreementTolerances::slosh, tolerance("m"),
+                 "Difference of the slosh displacements, the largest."),
+          judged("mass", &AgreementTolerances::mass, tolerance("kg"),
+                 "Difference of the masses of the whole vehicle."),
+          judged("energy", &AgreementTolerances::energy, relative(),
+                 "Energy balance of each engine: its change less the work of all loads, relative "
+                 "to the energy."),
+          judged("momentum", &AgreementTolerances::momentum, relative(),
+                 "Momentum balance of each engine: its change less the impulse of all loads, "
+                 "relative to the momenta in the vehicle."),
+          judged("angular_momentum", &AgreementTolerances::angular_momentum, relative(),
+                 "The same balance of the angular momentum about the system centre of mass."),
           optional("references", &AgreementSpec::references, object(references_table()),
                    "Tolerances of each engine's deviations from the references."),
       }};
@@ -134,19 +141,7 @@ void check(const AgreementSpec& agreement, const std::vector<ReferenceKind>& ref
 }
 
 Agreement lower(const AgreementSpec& spec) {
-  Agreement agreement{spec.attitude,
-                      spec.rate,
-                      spec.position,
-                      spec.velocity,
-                      spec.joint,
-                      spec.travel,
-                      spec.wheel,
-                      spec.slosh,
-                      spec.mass,
-                      spec.energy,
-                      spec.momentum,
-                      spec.angular_momentum,
-                      {}};
+  Agreement agreement{spec, {}};
   const ReferenceTolerancesSpec& from = spec.references;
   ReferenceTolerances& to = agreement.references;
   to.kepler.position = from.kepler.position;

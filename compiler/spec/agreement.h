@@ -35,20 +35,7 @@ struct ReferenceTolerancesSpec : Written {
   TsiolkovskyToleranceSpec tsiolkovsky;
 };
 
-/// Absent: reported, not judged.
-struct AgreementSpec : Written {
-  std::optional<double> attitude;          // [rad] principal angle between the engines
-  std::optional<double> rate;              // [rad/s]
-  std::optional<double> position;          // [m] system centre of mass
-  std::optional<double> velocity;          // [m/s] system centre of mass
-  std::optional<double> joint;             // [rad]
-  std::optional<double> travel;            // [m]
-  std::optional<double> wheel;             // [rad/s]
-  std::optional<double> slosh;             // [m]
-  std::optional<double> mass;              // [kg]
-  std::optional<double> energy;            // relative
-  std::optional<double> momentum;          // relative
-  std::optional<double> angular_momentum;  // relative
+struct AgreementSpec : Written, AgreementTolerances {
   ReferenceTolerancesSpec references;
 };
 

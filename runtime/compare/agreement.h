@@ -1,14 +1,13 @@
 // How far apart are the two engines? The largest difference of every physical quantity over two
-// trajectories of one model, when it occurred, and the tolerance that the spec gives it. Knows the
-// metrics of report.json and nothing of engines.
+// trajectories of one model, when it occurred, and the tolerance that the spec gives it.
 // Tested by tests/runtime/agreement_test.cpp.
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "runtime/compare/metrics.h"
 #include "runtime/simulate/propagate.h"
 
 namespace twincraft {
@@ -37,20 +36,6 @@ struct Comparison {
   std::vector<Metric> metrics;  // those that apply to the vehicle; none without common samples
   bool same_times = false;      // both trajectories were sampled at the same instants throughout
 };
-
-/// A quantity that both engines show and how different they are in it.
-struct MetricLaw {
-  std::string key;
-  double unit = 1.0;                // key's units per SI unit
-  std::optional<double> tolerance;  // SI
-  std::function<double(const Observation&, const Observation&)> difference;  // SI
-  std::function<double(const Observation&)> size;                            // SI
-};
-
-/// Those that apply to a vehicle, in the order of the report.
-std::vector<MetricLaw> metric_laws(const Model& model);
-/// Those of the hub alone, which judge nothing: see compare_hubs().
-std::vector<MetricLaw> hub_laws(bool translation);
 
 /// A comparison made while pairs of samples come.
 class AgreementMeter {

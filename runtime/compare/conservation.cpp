@@ -18,6 +18,11 @@ constexpr double kRounding = 1.0e-12;
 
 }  // namespace
 
+const BalanceRow* find_balance(std::string_view key) {
+  const auto* row = std::ranges::find(kBalances, key, &BalanceRow::key);
+  return row == kBalances.end() ? nullptr : row;
+}
+
 double ConservationMeter::relative(double imbalance, double scale) {
   return imbalance == 0.0 ? 0.0 : imbalance / scale;
 }

@@ -4,8 +4,10 @@
 // Tested by tests/runtime/conservation_test.cpp.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "runtime/compare/agreement.h"
 #include "runtime/simulate/propagate.h"
@@ -20,6 +22,24 @@ struct Conservation {
   // momentum times 1 m stands for the scale
   double angular_momentum = 0.0;
 };
+
+/// A quantity that must be kept: of each kind a row, in the order of the report.
+struct BalanceRow {
+  std::string_view key;              // `energy_relative`, as in report.json
+  std::string_view quantity, label;  // `energy`, `energy balance`
+  double Conservation::*imbalance;
+  std::optional<double> AgreementTolerances::*tolerance;
+};
+inline constexpr std::array<BalanceRow, 3> kBalances{{
+    {"energy_relative", "energy", "energy balance", &Conservation::energy,
+     &AgreementTolerances::energy},
+    {"momentum_relative", "momentum", "momentum", &Conservation::momentum,
+     &AgreementTolerances::momentum},
+    {"angular_momentum_relative", "angular momentum", "angular momentum",
+     &Conservation::angular_momentum, &AgreementTolerances::angular_momentum},
+}};
+/// Nothing when no balance has this key.
+const BalanceRow* find_balance(std::string_view key);
 
 /// The balances of a run while its samples come. What they are relative to is known at the end, so
 /// imbalances and scales are kept apart.

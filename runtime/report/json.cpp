@@ -124,9 +124,8 @@ Json engine_json(const Model& model, const EngineRun& run) {
   engine["evaluations"] = trajectory.counts.evaluations;
   engine["t_end_s"] = PrintedTime(model.simulation.step)(trajectory.t_end);
   engine["final"] = final_json(model, trajectory.samples.back());
-  engine["conservation"] = {{"energy_relative", run.conservation.energy},
-                            {"momentum_relative", run.conservation.momentum},
-                            {"angular_momentum_relative", run.conservation.angular_momentum}};
+  for (const BalanceRow& balance : kBalances)
+    engine["conservation"][balance.key] = run.conservation.*balance.imbalance;
   return engine;
 }
 

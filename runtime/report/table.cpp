@@ -105,11 +105,6 @@ std::string reference_block(const ReportedMember& member, bool colour) {
   return text;
 }
 
-double Conservation::*imbalance_of(std::string_view key) {
-  if (key == "energy_relative") return &Conservation::energy;
-  return key == "momentum_relative" ? &Conservation::momentum : &Conservation::angular_momentum;
-}
-
 std::string conservation_block(const ReportedMember& member, bool colour) {
   const Member& result = member.result;
   if (result.conservation.empty()) return {};
@@ -118,12 +113,12 @@ std::string conservation_block(const ReportedMember& member, bool colour) {
   std::string text = row("conservation", std::string(kEngines[0].label),
                          std::string(kEngines[1].label), any_judged ? "tolerance" : "");
   for (const Balance& balance : result.conservation) {
+    const BalanceRow& of = *find_balance(balance.key);
     const auto cell = [&](const EngineRun& run) -> std::string {
       if (run.trajectory.samples.empty()) return "-";
-      return quantity(run.conservation.*imbalance_of(balance.key), "");
+      return quantity(run.conservation.*of.imbalance, "");
     };
-    text += row(indented(words_of(balance.key, member.bundle.model).label), cell(result.engines[0]),
-                cell(result.engines[1]),
+    text += row(indented(std::string(of.label)), cell(result.engines[0]), cell(result.engines[1]),
                 balance.tolerance ? fmt::format("{:g} relative", *balance.tolerance) : "relative",
                 result_words(balance.pass(), holds_good(result), colour));
   }

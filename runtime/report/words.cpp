@@ -9,34 +9,13 @@
 #include <utility>
 
 #include "compiler/ir/number.h"
+#include "runtime/compare/conservation.h"
 #include "runtime/integrate/tableau.h"
 
 namespace twincraft {
 namespace {
 
 using Kind = Coordinate::Kind;
-
-struct Entry {
-  std::string_view key, label, unit;
-};
-
-constexpr std::array kWords{
-    Entry{"attitude_deg", "attitude", "deg"},
-    Entry{"rate_rad_s", "body rate", "rad/s"},
-    Entry{"position_m", "hub position", "m"},
-    Entry{"velocity_m_s", "hub velocity", "m/s"},
-    Entry{"com_position_m", "system CoM", "m"},
-    Entry{"joint_deg", "joint angles", "deg"},
-    Entry{"joint_m", "joint travel", "m"},
-    Entry{"wheel_rate_rad_s", "wheel rate", "rad/s"},
-    Entry{"slosh_m", "slosh", "m"},
-    Entry{"pendulum_deg", "pendulum", "deg"},
-    Entry{"mass_kg", "mass", "kg"},
-    Entry{"delta_v_relative", "delta-v, relative", ""},
-    Entry{"energy_relative", "energy balance", ""},
-    Entry{"momentum_relative", "momentum", ""},
-    Entry{"angular_momentum_relative", "angular momentum", ""},
-};
 
 bool has(const Model& model, Kind kind) {
   return std::any_of(model.coordinates.begin(), model.coordinates.end(),
@@ -70,10 +49,11 @@ std::string gravity_words(GravityLaw law) {
 
 MetricWords words_of(std::string_view key, const Model& model) {
   if (key == "joint_deg" && !has(model, Kind::kBodyAngle)) return {"panel angle", "deg"};
-  const auto* entry =
-      std::find_if(kWords.begin(), kWords.end(), [key](const Entry& e) { return e.key == key; });
-  if (entry == kWords.end()) return {std::string(key), ""};
-  return {std::string(entry->label), std::string(entry->unit)};
+  if (key == "delta_v_relative") return {"delta-v, relative", ""};
+  if (const MetricRow* metric = find_metric_row(key))
+    return {std::string(metric->label), std::string(metric->unit)};
+  if (const BalanceRow* balance = find_balance(key)) return {std::string(balance->label), ""};
+  return {std::string(key), ""};
 }
 
 std::string vehicle_words(const Model& model) {

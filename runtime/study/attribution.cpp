@@ -190,7 +190,7 @@ std::optional<Subject> worst_joint(const Model& model, const Trajectory& a, cons
     for (const Observation& sample : a.samples)
       size = std::max(size, std::abs(position_of(coordinate, sample)));
     Subject subject{std::string(kind_of(coordinate).metric),
-                    coordinate.is_length() ? 1.0 : kDegrees, kEpsilon * steps * size,
+                    find_metric_row(kind_of(coordinate).metric)->scale, kEpsilon * steps * size,
                     coordinate.entry(), coordinate.name};
     const double off = error_of(subject, a, b).maximum();
     if (!(off > largest * subject.rounding)) continue;

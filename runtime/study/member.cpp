@@ -15,25 +15,27 @@ namespace {
 
 using Status = EngineRun::Status;
 
-/// The worst of the engines that have samples, balance by balance.
+/// The worst of the engines that have samples; without an engine when none has.
+Balance worst_of(const BalanceRow& row, const std::vector<EngineRun>& engines) {
+  Balance worst{.key = std::string(row.key)};
+  for (const EngineRun& engine : engines) {
+    if (engine.trajectory.samples.empty()) continue;
+    const double found = engine.conservation.*row.imbalance;
+    const bool is_worse = found > worst.maximum || std::isnan(found);
+    if (!worst.engine.empty() && (!is_worse || std::isnan(worst.maximum))) continue;
+    worst.maximum = found;
+    worst.engine = engine.name;
+  }
+  return worst;
+}
+
 std::vector<Balance> balances(const Agreement& tolerances, const std::vector<EngineRun>& engines) {
   std::vector<Balance> all;
-  const auto add = [&](const char* key, double Conservation::*imbalance,
-                       std::optional<double> tolerance) {
-    Balance worst{.key = key, .tolerance = tolerance};
-    for (const EngineRun& engine : engines) {
-      if (engine.trajectory.samples.empty()) continue;
-      const double found = engine.conservation.*imbalance;
-      const bool is_worse = found > worst.maximum || std::isnan(found);
-      if (!worst.engine.empty() && (!is_worse || std::isnan(worst.maximum))) continue;
-      worst.maximum = found;
-      worst.engine = engine.name;
-    }
-    if (!worst.engine.empty()) all.push_back(worst);
-  };
-  add("energy_relative", &Conservation::energy, tolerances.energy);
-  add("momentum_relative", &Conservation::momentum, tolerances.momentum);
-  add("angular_momentum_relative", &Conservation::angular_momentum, tolerances.angular_momentum);
+  for (const BalanceRow& row : kBalances) {
+    Balance worst = worst_of(row, engines);
+    worst.tolerance = tolerances.*row.tolerance;
+    if (!worst.engine.empty()) all.push_back(std::move(worst));
+  }
   return all;
 }
 

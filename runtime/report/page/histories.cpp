@@ -105,11 +105,9 @@ std::vector<Figure> figures_of(const Model& model) {
 
 std::vector<std::string> keys_of(const Model& model) {
   std::vector<std::string> keys;
-  for (const MetricLaw& law : metric_laws(model)) keys.push_back(law.key);
+  for (const MetricLaw& law : metric_laws(model)) keys.emplace_back(law.row->key);
   return keys;
 }
-
-constexpr std::size_t kBalances = 3;
 
 std::size_t count_series(const std::vector<Figure>& figures) {
   std::size_t count = 0;
@@ -226,21 +224,18 @@ Json HistoryPrinter::conservation(const std::array<ConservationMeter, 2>& books)
             {"logarithmic", true},
             {"series", Json::array()}};
   std::size_t column = count_series(figures_);
-  const auto add = [&](const char* label, double Conservation::*balance) {
-    Json one{{"name", label}};
+  for (const BalanceRow& balance : kBalances) {
+    Json one{{"name", balance.quantity}};
     for (std::size_t engine : {0U, 1U}) {
       if (engines_[engine].samples() == 0) continue;
       std::vector<double> values = engines_[engine].extremes(column);
-      const double scale = books[engine].scales().*balance;
+      const double scale = books[engine].scales().*balance.imbalance;
       for (double& value : values) value = ConservationMeter::relative(value, scale);
       one[name(engine)] = base64(values);
     }
     json["series"].push_back(std::move(one));
     ++column;
-  };
-  add("energy", &Conservation::energy);
-  add("momentum", &Conservation::momentum);
-  add("angular momentum", &Conservation::angular_momentum);
+  }
   return json;
 }
 
@@ -249,8 +244,8 @@ Json HistoryPrinter::conservation(const std::array<ConservationMeter, 2>& books)
 Histories::Histories(const Model& model)
     : figures_(figures_of(model)),
       metrics_(keys_of(model)),
-      engines_{Decimator(count_series(figures_) + kBalances, points_for(figures_)),
-               Decimator(count_series(figures_) + kBalances, points_for(figures_))},
+      engines_{Decimator(count_series(figures_) + kBalances.size(), points_for(figures_)),
+               Decimator(count_series(figures_) + kBalances.size(), points_for(figures_))},
       pairs_(metrics_.size() + count_unjudged(figures_), points_for(figures_)) {}
 
 void Histories::take(std::size_t engine, const Observation& sample, const Books& books) {
@@ -260,8 +255,7 @@ void Histories::take(std::size_t engine, const Observation& sample, const Books&
     for (const Series& series : figure.series) row.push_back(series.value(sample));
   ConservationMeter& meter = books_.at(engine);
   meter.take(sample, books);
-  const Conservation& imbalance = meter.imbalance();
-  row.insert(row.end(), {imbalance.energy, imbalance.momentum, imbalance.angular_momentum});
+  for (const BalanceRow& balance : kBalances) row.push_back(meter.imbalance().*balance.imbalance);
   engines_.at(engine).take(sample.time, row);
 }
 
