@@ -27,14 +27,13 @@ std::string wrapped(std::string_view text, std::size_t width) {
   return lines.append(text);
 }
 
-void describe(CLI::App& app, CommonOptions& options) {
-  describe_input(app, options, "report.json and report.html");
-  describe_instructions(app, options);
-  describe_jobs(app, options, "variants at a time (default: all cores)");
-  describe_talk(app, options);
-  app.set_help_flag("-h,--help", "print this");
-  app.get_formatter()->column_width(28);
-  app.footer(fmt::format(
+void describe(CommandLine& line, CommonOptions& options) {
+  describe_input(line, options, "report.json and report.html");
+  describe_instructions(line, options);
+  describe_jobs(line, options, "variants at a time (default: all cores)");
+  describe_talk(line, options);
+  line.set_column(28);
+  line.add_footer(fmt::format(
       "Variants: co-moving frame, token masses and inertias taken away, one gravity law, one\n"
       "attitude chart; each as far as it applies. A study is left out: the spec itself is run.\n"
       "{}\n\n"
@@ -180,11 +179,11 @@ int explain(CompiledSpec compiled, const CommonOptions& options) {
 }  // namespace
 
 int attribute_command(int argc, char** argv) {
-  CLI::App app{"Explains why the two engines differ on a spec: how much each cause carries.",
-               "scsim attribute"};
+  CommandLine line{"Explains why the two engines differ on a spec: how much each cause carries.",
+                   "scsim attribute"};
   CommonOptions options;
-  describe(app, options);
-  if (const std::optional<int> code = parse_command_line(app, argc, argv)) return *code;
+  describe(line, options);
+  if (const std::optional<int> code = line.parse(argc, argv)) return *code;
   if (const std::optional<int> code = settle_flags("scsim attribute", options)) return *code;
   Wanted wanted = wanted_by_run(options);
   wanted.push_back(kResolved);  // causes are read from it

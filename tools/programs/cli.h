@@ -1,15 +1,15 @@
-// What a command line of ours is beyond CLI11: usage errors with the near miss, the exit codes,
-// what becomes of warnings, and when to use colour.  Tested by tests/agreement/scsim_test.cpp.
+// What our programs share beyond their flags: exit codes, usage errors, what becomes of warnings.
+// Tested by tests/agreement/scsim_test.cpp.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <functional>
-#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "compiler/diag/diagnostics.h"
 #include "compiler/diag/terminal.h"
+#include "tools/programs/command_line.h"
 
 namespace twincraft {
 
@@ -21,11 +21,6 @@ enum ExitCode {
   kExitFailure = 4,
 };
 
-/// Parse into `app`. Prints help or version to standard output, a usage error with its near miss to
-/// standard error. A flag with an empty value is a usage error. @return nothing to go on, or the
-/// code the program exits with
-std::optional<int> parse_command_line(CLI::App& app, int argc, const char* const* argv);
-
 /// A usage error on standard error. @return kExitUsage
 int report_usage(std::string_view program, const std::string& text, const std::string& hint);
 
@@ -33,11 +28,11 @@ int report_usage(std::string_view program, const std::string& text, const std::s
 /// @return the exit code
 int explain_code(std::string_view program, const std::string& word);
 
-/// Accepts exactly these words; for any other it names the nearest.
-CLI::Validator one_of(std::vector<std::string> words);
+/// Without blanks at either end.
+std::string trimmed(std::string_view text);
 
 /// The flag `-W`, into `words`: `-Werror`, `-Wno-SC3402`.
-void add_warning_flags(CLI::App& app, std::vector<std::string>& words);
+void add_warning_flags(CommandLine& line, std::vector<std::string>& words);
 /// Does to `diagnostics` what the words ask for.
 void judge_warnings(const std::vector<std::string>& words, Diagnostics& diagnostics);
 

@@ -42,7 +42,7 @@ std::vector<Convenience> conveniences(const CommonOptions& options) {
 
 /// `simulation.step` of `simulation.step = 0.1`.
 std::string path_of(const std::string& override) {
-  return CLI::detail::trim_copy(override.substr(0, override.find('=')));
+  return trimmed(override.substr(0, override.find('=')));
 }
 
 /// One path is the other, or leads to a part of it.
@@ -87,46 +87,35 @@ void check_members(const LoadedSpec& spec, const CommonOptions& options, Diagnos
 
 }  // namespace
 
-void describe_input(CLI::App& app, CommonOptions& options, std::string_view files) {
-  app.add_option("spec", options.request.file, "spacecraft spec, or - for standard input")
-      ->type_name("SPEC");
-  app.add_option("-o,--output", options.folder, fmt::format("write {} here", files))
-      ->type_name("DIR");
-  app.add_option("--set", options.request.overrides, "change the spec first; repeatable")
-      ->type_name("PATH=VALUE")
-      ->allow_extra_args(false);
-  app.add_option("--step", options.step, "same as --set simulation.step=VALUE")->type_name("VALUE");
-  app.add_option("--integrator", options.integrator, "same as --set simulation.integrator=VALUE")
-      ->type_name("VALUE");
-  app.add_option("--duration", options.duration, "same as --set simulation.duration=VALUE")
-      ->type_name("VALUE");
+void describe_input(CommandLine& line, CommonOptions& options, std::string_view files) {
+  line.add_text("spec", options.request.file, "SPEC", "spacecraft spec, or - for standard input");
+  line.add_text("-o,--output", options.folder, "DIR", fmt::format("write {} here", files));
+  line.add_list("--set", options.request.overrides, "PATH=VALUE",
+                "change the spec first; repeatable");
+  line.add_text("--step", options.step, "VALUE", "same as --set simulation.step=VALUE");
+  line.add_text("--integrator", options.integrator, "VALUE",
+                "same as --set simulation.integrator=VALUE");
+  line.add_text("--duration", options.duration, "VALUE", "same as --set simulation.duration=VALUE");
 }
 
-void describe_jobs(CLI::App& app, CommonOptions& options, const std::string& meaning) {
-  app.add_option("--jobs", options.jobs, meaning)
-      ->type_name("N")
-      ->check(CLI::Range(1, 1024).description(""));
+void describe_jobs(CommandLine& line, CommonOptions& options, const std::string& meaning) {
+  line.add_number("--jobs", options.jobs, 1, 1024, meaning);
 }
 
-void describe_instructions(CLI::App& app, CommonOptions& options) {
-  app.add_option("--isa", options.isa,
-                 "instructions of the analytic engine: auto (default), portable, avx2, avx512")
-      ->type_name("SET")
-      ->check(one_of({"auto", "portable", "avx2", "avx512"}))
-      ->check(CLI::Validator([](std::string& isa) { return check_processor(isa); }, ""));
+void describe_instructions(CommandLine& line, CommonOptions& options) {
+  line.add_text("--isa", options.isa, "SET",
+                "instructions of the analytic engine: auto (default), portable, avx2, avx512",
+                {one_of({"auto", "portable", "avx2", "avx512"}), check_processor});
 }
 
-void describe_talk(CLI::App& app, CommonOptions& options) {
-  app.add_flag("--quiet", options.quiet, "print no report and no progress");
-  app.add_option("--progress", options.progress, "auto (default), always or never")
-      ->type_name("WHEN")
-      ->check(one_of({"auto", "always", "never"}));
-  app.add_option("--diagnostics", options.diagnostics, "text (default) or json")
-      ->type_name("FORMAT")
-      ->check(one_of({"text", "json"}));
-  add_warning_flags(app, options.warnings);
-  app.add_option("--explain", options.explain, "what a diagnostic code means, and the cure")
-      ->type_name("CODE");
+void describe_talk(CommandLine& line, CommonOptions& options) {
+  line.add_switch("--quiet", options.quiet, "print no report and no progress");
+  line.add_text("--progress", options.progress, "WHEN", "auto (default), always or never",
+                {one_of({"auto", "always", "never"})});
+  line.add_text("--diagnostics", options.diagnostics, "FORMAT", "text (default) or json",
+                {one_of({"text", "json"})});
+  add_warning_flags(line, options.warnings);
+  line.add_text("--explain", options.explain, "CODE", "what a diagnostic code means, and the cure");
 }
 
 std::optional<int> settle_flags(std::string_view program, CommonOptions& options) {

@@ -29,10 +29,10 @@ struct CommonOptions {
 };
 
 /// @param files  what is written into the folder
-void describe_input(CLI::App& app, CommonOptions& options, std::string_view files);
-void describe_jobs(CLI::App& app, CommonOptions& options, const std::string& meaning);
-void describe_instructions(CLI::App& app, CommonOptions& options);
-void describe_talk(CLI::App& app, CommonOptions& options);
+void describe_input(CommandLine& line, CommonOptions& options, std::string_view files);
+void describe_jobs(CommandLine& line, CommonOptions& options, const std::string& meaning);
+void describe_instructions(CommandLine& line, CommonOptions& options);
+void describe_talk(CommandLine& line, CommonOptions& options);
 
 /// What the flags say by themselves: a code to explain, flags that exclude each other, no spec.
 /// `--step` and its like become the overrides they stand for.

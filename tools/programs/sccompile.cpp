@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -29,7 +30,7 @@ struct Options {
   std::string folder = ".";
   std::string emit = fmt::format("{},{}", kMjcf, kAssemblyJson);
   std::string diagnostics = "text";
-  std::size_t max_errors = PrintOptions{}.max_errors;
+  int max_errors = static_cast<int>(PrintOptions{}.max_errors);
   std::vector<std::string> warnings;  // what stands after -W
   bool check = false;
   std::string explain;
@@ -66,30 +67,24 @@ std::string target_lines() {
   return lines;
 }
 
-void describe(CLI::App& app, Options& options) {
-  app.add_option("SPEC", options.request.file, "spacecraft spec, or - for standard input")
-      ->type_name("");
-  app.add_option("-o,--output", options.folder, "folder of the results, or - for standard output")
-      ->type_name("DIR");
-  app.add_option("--emit", options.emit, fmt::format("what to write (default {})", options.emit))
-      ->type_name("LIST");
-  app.add_option("--set", options.request.overrides, "change the spec first; repeatable")
-      ->type_name("PATH=VALUE")
-      ->allow_extra_args(false);
-  app.add_flag("--check", options.check, "write nothing; prove both targets to be one machine");
-  app.add_option("--diagnostics", options.diagnostics, "text (default), json or sarif")
-      ->type_name("FORMAT");
-  app.add_option("--max-errors", options.max_errors, "show this many errors (default 50)")
-      ->type_name("N")
-      ->check(CLI::Range(1, 1'000'000).description(""));
-  add_warning_flags(app, options.warnings);
-  app.add_option("--explain", options.explain, "what a diagnostic code means, and the cure")
-      ->type_name("CODE");
-  app.add_flag("--schema", options.schema, "print the JSON Schema of the spec language");
-  app.add_flag("--reference", options.reference, "print the reference of the spec language");
-  app.set_help_flag("-h,--help", "print this");
-  app.set_version_flag("--version", "sccompile " TWINCRAFT_VERSION, "print the version");
-  app.footer(
+void describe(CommandLine& line, Options& options) {
+  line.add_text("SPEC", options.request.file, "", "spacecraft spec, or - for standard input");
+  line.add_text("-o,--output", options.folder, "DIR",
+                "folder of the results, or - for standard output");
+  line.add_text("--emit", options.emit, "LIST",
+                fmt::format("what to write (default {})", options.emit));
+  line.add_list("--set", options.request.overrides, "PATH=VALUE",
+                "change the spec first; repeatable");
+  line.add_switch("--check", options.check, "write nothing; prove both targets to be one machine");
+  line.add_text("--diagnostics", options.diagnostics, "FORMAT", "text (default), json or sarif");
+  line.add_number("--max-errors", options.max_errors, 1, 1'000'000,
+                  "show this many errors (default 50)");
+  add_warning_flags(line, options.warnings);
+  line.add_text("--explain", options.explain, "CODE", "what a diagnostic code means, and the cure");
+  line.add_switch("--schema", options.schema, "print the JSON Schema of the spec language");
+  line.add_switch("--reference", options.reference, "print the reference of the spec language");
+  line.add_version("sccompile " TWINCRAFT_VERSION);
+  line.add_footer(
       "Results:\n" + target_lines() +
       "\nExit: 0 done, 1 the spec has faults, 2 usage, 3 input/output, 4 internal failure.\n\n"
       "Example: sccompile models/quickstart.yaml -o out --set wheels.rw_x.speed='6000 rpm'");
@@ -101,8 +96,9 @@ std::optional<int> refuse_bad_values(Options& options) {
     return usage("`--diagnostics` cannot be " + in_backticks(options.diagnostics),
                  did_you_mean(options.diagnostics, kFormats));
   }
-  for (const std::string& word : CLI::detail::split(options.emit, ',')) {
-    const std::string name = CLI::detail::trim_copy(word);
+  std::istringstream list(options.emit);
+  for (std::string word; std::getline(list, word, ',');) {
+    const std::string name = trimmed(word);
     const Target* target = find_target(name);
     if (target == nullptr)
       return usage("`--emit` cannot be " + in_backticks(name), did_you_mean(name, target_names()));
@@ -123,15 +119,15 @@ std::optional<int> refuse_bad_values(Options& options) {
 }
 
 /// What is written on the command line and has no effect beside another flag is said.
-void warn_of_idle_flags(const CLI::App& app, const Options& options) {
-  const auto warn = [&app](const char* busy, std::initializer_list<const char*> idle) {
+void warn_of_idle_flags(const CommandLine& line, const Options& options) {
+  const auto warn = [&line](const char* busy, std::initializer_list<const char*> idle) {
     for (const char* name : idle)
-      if (app.get_option(name)->count() > 0)
+      if (line.has(name))
         complain(fmt::format("warning: `{}` has no effect with `{}`", name, busy));
   };
   if (options.check) warn("--check", {"-o", "--emit"});
   for (const char* only : {"--schema", "--reference", "--explain"})
-    if (app.get_option(only)->count() > 0) warn(only, {"SPEC", "-o", "--emit", "--set", "--check"});
+    if (line.has(only)) warn(only, {"SPEC", "-o", "--emit", "--set", "--check"});
 }
 
 /// A document, for programs: its bytes reach them as they are.
@@ -146,7 +142,8 @@ int print(const std::string& document) {
 int report(const Diagnostics& diagnostics, const Options& options) {
   if (options.diagnostics == "json") return print(to_json(diagnostics));
   if (options.diagnostics == "sarif") return print(to_sarif(diagnostics));
-  write_standard_error(to_text(diagnostics, {wants_colour(STDERR_FILENO), options.max_errors}));
+  write_standard_error(to_text(
+      diagnostics, {wants_colour(STDERR_FILENO), static_cast<std::size_t>(options.max_errors)}));
   return kExitDone;
 }
 
@@ -232,12 +229,12 @@ int run(const Options& options) {
 }
 
 int parse_and_run(int argc, char** argv) {
-  CLI::App app{"Compiles a spacecraft spec into an effector assembly and MJCF.", "sccompile"};
+  CommandLine line{"Compiles a spacecraft spec into an effector assembly and MJCF.", "sccompile"};
   Options options;
-  describe(app, options);
-  if (const std::optional<int> code = parse_command_line(app, argc, argv)) return *code;
+  describe(line, options);
+  if (const std::optional<int> code = line.parse(argc, argv)) return *code;
   if (const std::optional<int> code = refuse_bad_values(options)) return *code;
-  warn_of_idle_flags(app, options);
+  warn_of_idle_flags(line, options);
   return run(options);
 }
 

@@ -30,29 +30,26 @@ struct Options : CommonOptions {
   bool no_timing = false;
 };
 
-void describe_run(CLI::App& app, Options& options) {
-  describe_input(app, options, "report.json, report.html and CSV files");
-  app.add_flag("--netcdf", options.netcdf, "also write trajectories as netCDF-4, with -o")
-      ->needs(app.get_option("--output"));
-  app.add_option("--engine", options.engine, "bsm, mujoco or both (default)")
-      ->type_name("ENGINE")
-      ->check(one_of({std::string(kBsmKey), std::string(kMujocoKey), "both"}));
-  app.add_option("--trials", options.trials, "timed trials per engine (default 5; 0: no timing)")
-      ->type_name("N")
-      ->check(CLI::Range(0, 1'000'000).description(""));
-  app.add_flag("--no-timing", options.no_timing, "same as --trials 0");
-  describe_instructions(app, options);
-  describe_jobs(app, options,
+void describe_run(CommandLine& line, Options& options) {
+  describe_input(line, options, "report.json, report.html and CSV files");
+  line.add_switch("--netcdf", options.netcdf, "also write trajectories as netCDF-4, with -o");
+  line.require("--netcdf", "--output");
+  line.add_text("--engine", options.engine, "ENGINE", "bsm, mujoco or both (default)",
+                {one_of({std::string(kBsmKey), std::string(kMujocoKey), "both"})});
+  line.add_number("--trials", options.trials, 0, 1'000'000,
+                  "timed trials per engine (default 5; 0: no timing)");
+  line.add_switch("--no-timing", options.no_timing, "same as --trials 0");
+  describe_instructions(line, options);
+  describe_jobs(line, options,
                 "members of a study at a time (default: all cores); timed ones run alone");
 }
 
-void describe(CLI::App& app, Options& options) {
-  describe_run(app, options);
-  describe_talk(app, options);
-  app.set_help_flag("-h,--help", "print this");
-  app.set_version_flag("--version", "scsim " TWINCRAFT_VERSION, "print the version");
-  app.get_formatter()->column_width(28);
-  app.footer(
+void describe(CommandLine& line, Options& options) {
+  describe_run(line, options);
+  describe_talk(line, options);
+  line.add_version("scsim " TWINCRAFT_VERSION);
+  line.set_column(28);
+  line.add_footer(
       "scsim attribute SPEC explains a disagreement; see scsim attribute --help.\n\n"
       "Exit: 0 done, 1 faults in the spec or a tolerance exceeded, 2 usage, 3 input/output,\n"
       "4 numerical failure, 130/143 interrupted (what was computed is written).\n\n"
@@ -223,12 +220,12 @@ int parse_and_run(int argc, char** argv) {
   if (is_misspelt_command(first))
     return report_usage("scsim", fmt::format("unknown command {}", in_backticks(first)),
                         fmt::format("did you mean `{}`?", kAttribute));
-  CLI::App app{"Runs a spacecraft spec in both engines and says whether they agree.", "scsim"};
+  CommandLine line{"Runs a spacecraft spec in both engines and says whether they agree.", "scsim"};
   Options options;
-  describe(app, options);
-  if (const std::optional<int> code = parse_command_line(app, argc, argv)) return *code;
+  describe(line, options);
+  if (const std::optional<int> code = line.parse(argc, argv)) return *code;
   if (const std::optional<int> code = settle_flags("scsim", options)) return *code;
-  if (options.no_timing && app.get_option("--trials")->count() > 0 && options.trials > 0)
+  if (options.no_timing && line.has("--trials") && options.trials > 0)
     complain("warning: `--trials` has no effect with `--no-timing`");
   if (options.no_timing) options.trials = 0;
   return compile_and_simulate(options);
