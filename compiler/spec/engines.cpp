@@ -9,7 +9,7 @@ namespace {
 
 const Table<BsmSpec>& bsm_table() {
   static const Table<BsmSpec> table{
-      std::string(kBsmKey),
+      kBsmKey,
       "The analytic back-substitution engine.",
       {
           optional(
@@ -36,7 +36,7 @@ const Table<BsmSpec>& bsm_table() {
 
 const Table<MujocoSpec>& mujoco_table() {
   static const Table<MujocoSpec> table{
-      std::string(kMujocoKey),
+      kMujocoKey,
       "The MuJoCo engine.",
       {
           optional("frame", &MujocoSpec::frame,
@@ -82,10 +82,8 @@ const Table<EnginesSpec>& engines_table() {
       "engines",
       "Controls of the comparison; the defaults make both engines the same machine to rounding.",
       {
-          optional(std::string(kBsmKey), &EnginesSpec::bsm, object(bsm_table()),
-                   "The analytic engine."),
-          optional(std::string(kMujocoKey), &EnginesSpec::mujoco, object(mujoco_table()),
-                   "MuJoCo."),
+          optional(kBsmKey, &EnginesSpec::bsm, object(bsm_table()), "The analytic engine."),
+          optional(kMujocoKey, &EnginesSpec::mujoco, object(mujoco_table()), "MuJoCo."),
       }};
   return table;
 }

@@ -110,15 +110,15 @@ std::string conservation_block(const ReportedMember& member, bool colour) {
   if (result.conservation.empty()) return {};
   const auto any_judged = std::ranges::any_of(
       result.conservation, [](const Balance& balance) { return balance.tolerance.has_value(); });
-  std::string text = row("conservation", std::string(kEngines[0].label),
-                         std::string(kEngines[1].label), any_judged ? "tolerance" : "");
+  std::string text =
+      row("conservation", kEngines[0].label, kEngines[1].label, any_judged ? "tolerance" : "");
   for (const Balance& balance : result.conservation) {
     const BalanceRow& of = *find_balance(balance.key);
     const auto cell = [&](const EngineRun& run) -> std::string {
       if (run.trajectory.samples.empty()) return "-";
       return quantity(run.conservation.*of.imbalance, "");
     };
-    text += row(indented(std::string(of.label)), cell(result.engines[0]), cell(result.engines[1]),
+    text += row(indented(of.label), cell(result.engines[0]), cell(result.engines[1]),
                 balance.tolerance ? fmt::format("{:g} relative", *balance.tolerance) : "relative",
                 result_words(balance.pass(), holds_good(result), colour));
   }
