@@ -109,10 +109,10 @@ std::vector<OutputSignal> outputs_of(const Model& model) {
   return outputs;
 }
 
-std::vector<Signal> states_of(const Model& model) {
+std::vector<Signal> states_of(const Model& model, AttitudeChart chart) {
   std::vector<Signal> states{hub_position(), hub_velocity()};
   if (model.simulation.translation) return states;
-  if (model.engines.attitude == AttitudeChart::kMrp)
+  if (chart == AttitudeChart::kMrp)
     states.push_back({"sigma_BN", "123", "1", "modified Rodrigues parameters of the attitude"});
   else
     states.push_back(attitude());

@@ -43,8 +43,8 @@ struct OutputSignal : Signal {
 
 /// In the order of the CSV's columns, time apart.
 std::vector<OutputSignal> outputs_of(const Model& model);
-/// In the order of an engine's state vector.
-std::vector<Signal> states_of(const Model& model);
+/// In the order of the state vector of an engine with this chart.
+std::vector<Signal> states_of(const Model& model, AttitudeChart chart);
 /// What may act by schedule: wheels and joints of bodies in the order of the spec, then thrusters
 /// and loads. All of them, whether or not the spec gives them a schedule.
 std::vector<Signal> inputs_of(const Model& model);

@@ -19,8 +19,8 @@ constexpr std::size_t kBooks = 8;
 bool is_adaptive(const Model& model) { return tableau_of(model.simulation.method).adaptive; }
 
 /// A name for every entry of the state and the books behind it.
-std::vector<std::string> entry_names(const Model& model) {
-  std::vector<Signal> entries = states_of(model);
+std::vector<std::string> entry_names(const Model& model, AttitudeChart chart) {
+  std::vector<Signal> entries = states_of(model, chart);
   const std::array<Signal, 4> books{{{"work", "", "J", ""},
                                      {"impulse_N", "xyz", "N s", ""},
                                      {"angular_impulse_N", "xyz", "N m s", ""},
@@ -93,7 +93,7 @@ Flight::Flight(Engine& engine, const Model& model, FlightOptions options)
                                : std::make_unique<EngineOde>(engine)),
       excusing_(is_adaptive(model) ? std::make_unique<ExcusingOde>(*ode_) : nullptr),
       stepper_(tableau_of(model.simulation.method), excusing_ ? *excusing_ : *ode_),
-      names_(entry_names(model)),
+      names_(entry_names(model, engine.layout().chart)),
       control_(engine.layout(), model.simulation.tolerance, names_),
       landings_(
           model.simulation.step,
@@ -111,10 +111,9 @@ std::span<const double> Flight::state() const {
 }
 
 Books Flight::books() const {
-  const auto size = static_cast<std::size_t>(engine_.layout().size());
-  const std::size_t all = names_.size();
-  if (stepper_.size() == static_cast<int>(size)) return {};
-  const std::span<const double> books{stepper_.solution().value.data() + size, all - size};
+  const int size = engine_.layout().size();
+  if (stepper_.size() == size) return {};
+  const std::span<const double> books{stepper_.solution().value.data() + size, kBooks};
   return {books[0], Vector3d::Map(&books[1]), Vector3d::Map(&books[4]), books[7]};
 }
 

@@ -154,16 +154,15 @@ TEST(Signals, NameOutputsInTheOrderOfTheSpec) {
 
 TEST(Signals, NameStatesInTheOrderOfTheAssembly) {
   Model model = named_model();
-  const std::vector<std::string> names = component_names(states_of(model));
+  const std::vector<std::string> names = component_names(states_of(model, AttitudeChart::kMrp));
   EXPECT_THAT(
       std::vector(names.begin() + 6, names.end()),
       testing::ElementsAre("sigma_BN.1", "sigma_BN.2", "sigma_BN.3", "omega_BN_B.x", "omega_BN_B.y",
                            "omega_BN_B.z", "rail.position", "arm.position", "wing.1.position",
                            "rail.rate", "arm.rate", "wing.1.rate", "rw.rate"));
-  model.engines.attitude = AttitudeChart::kQuaternion;
-  EXPECT_EQ(component_names(states_of(model)).at(6), "q_BN.w");
+  EXPECT_EQ(component_names(states_of(model, AttitudeChart::kQuaternion)).at(6), "q_BN.w");
   model.simulation.translation = true;
-  EXPECT_THAT(component_names(states_of(model)), testing::SizeIs(6));
+  EXPECT_THAT(component_names(states_of(model, AttitudeChart::kMrp)), testing::SizeIs(6));
 }
 
 TEST(Signals, NameInputsOfAllThatASpecMayDrive) {

@@ -7,6 +7,7 @@
 
 #include <vector>
 
+#include "compiler/ir/signals.h"
 #include "runtime/simulate/engines.h"
 #include "tests/support/compiled.h"
 
@@ -31,6 +32,17 @@ class Flights : public testing::TestWithParam<EngineKind> {
     return make_engine(GetParam(), bundle);
   }
 };
+
+/// One engine's attitude is an MRP, the other's a quaternion.
+TEST_P(Flights, HaveANameForEveryEntryOfTheState) {
+  const Bundle bundle = burn();
+  const auto engine = this->engine(bundle);
+  const StateLayout& layout = engine->layout();
+  const std::vector<std::string> names = component_names(states_of(bundle.model, layout.chart));
+  EXPECT_EQ(names.size(), static_cast<std::size_t>(layout.size()));
+  EXPECT_EQ(names.at(static_cast<std::size_t>(layout.rate())), "omega_BN_B.x");
+  EXPECT_EQ(names.at(static_cast<std::size_t>(layout.joint())), "wing.1.position");
+}
 
 TEST_P(Flights, InPiecesThatEndOnTheGridGiveTheBytesOfOne) {
   const Bundle bundle = burn();
