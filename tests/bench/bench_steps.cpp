@@ -19,6 +19,7 @@
 #include "tests/bench/raw_mujoco.h"
 #include "tests/bench/vehicle.h"
 #include "tools/programs/cli.h"
+#include "tools/programs/command_line.h"
 
 namespace twincraft::bench {
 namespace {
@@ -30,7 +31,7 @@ struct Options {
   std::vector<std::string> settings;
   std::string engine;  // empty: a race
   bool recorded = false;
-  long steps = 1000;
+  int steps = 1000;
   int trials = 15;
 };
 
@@ -132,16 +133,17 @@ int race(const Options& options, const Bundle& bundle) {
 }
 
 int parse_and_run(int argc, char** argv) {
-  CLI::App app{"Steps a spacecraft spec, to be counted or timed.", "bench_steps"};
+  CommandLine line("Steps a spacecraft spec, to be counted or timed.", "bench_steps");
   Options options;
-  app.add_option("spec", options.spec, "spacecraft spec")->required();
-  app.add_option("--set", options.settings, "PATH=VALUE")->take_all()->allow_extra_args(false);
-  app.add_option("--engine", options.engine, "run this one and print nothing")
-      ->check(one_of({"bsm", "portable", "mujoco", "forward", "minimal"}));
-  app.add_flag("--recorded", options.recorded, "with --engine: record samples and integrate books");
-  app.add_option("--steps", options.steps, "of one run")->check(CLI::Range(1, 100'000'000));
-  app.add_option("--trials", options.trials, "of each contestant")->check(CLI::Range(1, 10'000));
-  if (const std::optional<int> code = parse_command_line(app, argc, argv)) return *code;
+  line.add_text("spec", options.spec, "", "spacecraft spec");
+  line.add_list("--set", options.settings, "PATH=VALUE", "change the spec first; repeatable");
+  line.add_text("--engine", options.engine, "ENGINE", "run this one and print nothing",
+                {one_of({"bsm", "portable", "mujoco", "forward", "minimal"})});
+  line.add_switch("--recorded", options.recorded,
+                  "with --engine: record samples and integrate books");
+  line.add_number("--steps", options.steps, 1, 100'000'000, "of one run");
+  line.add_number("--trials", options.trials, 1, 10'000, "of each contestant");
+  if (const std::optional<int> code = line.parse(argc, argv)) return *code;
   Bundle bundle = compiled(options.spec, options.settings);
   set_steps(bundle.model, options.steps);
   return options.engine.empty() ? race(options, bundle) : run_alone(options, bundle);
