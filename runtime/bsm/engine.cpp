@@ -147,12 +147,22 @@ class BsmEngine final : public Engine {
   bool acts() const { return !forces_.is_idle() || link_forces_.acts(); }
 
   void add_forces(double time, const State& x, const Center& center, BookRates& rates) {
+    if (forces_.has_loads_alone() && !link_forces_.acts()) {
+      const Work work = forces_.work_of_loads(motion_.poses, motion_.rates);
+      const Wrench all{work.force_W, work.torque_PntB_W};
+      return add_sums(x, center, work, {all, work.power}, rates);
+    }
     if (forces_.is_idle()) std::ranges::fill(wrenches_, Wrench{});
     Work work = forces_.apply(x.r_BN_B(), motion_.poses, motion_.rates, wrenches_);
     if (link_forces_.acts())
       work += link_forces_.add({time, x.r_BN_N, x.v_BN_N, x.dcm_NB}, motion_.poses, motion_.rates,
                                wrenches_);
-    const WrenchSums sums = twincraft::sum_up(wrenches_, motion_.poses, motion_.rates);
+    add_sums(x, center, work, twincraft::sum_up(wrenches_, motion_.poses, motion_.rates), rates);
+  }
+
+  /// @param work  of the part without a potential  @param sums  of all wrenches
+  static void add_sums(const State& x, const Center& center, const Work& work,
+                       const WrenchSums& sums, BookRates& rates) {
     const Vector3d& force_B = sums.all.force_W;
     rates.power += work.power + work.force_W.dot(x.v_BN_B());
     rates.own_power += sums.power - force_B.dot(center.v_CB_B);

@@ -116,25 +116,43 @@ void ForceModel::apply_gravity(const Vector3d& r_BN_W, std::span<const LinkPose>
   }
 }
 
-void ForceModel::apply_loads(std::span<const LinkPose> links, std::span<const LinkRate> rates,
-                             std::span<Wrench> wrenches, Work& work) const {
+/// A load as it acts, in working axes.
+ForceModel::ActingLoad ForceModel::acting(const HeldLoad& load,
+                                          std::span<const LinkPose> links) const {
+  const LinkPose& pose = links[static_cast<std::size_t>(load.link)];
+  ActingLoad acting{pose.dcm_WL * load.torque_L, Vector3d::Zero(), Vector3d::Zero()};
+  if (!load.pushes) return acting;
+  acting.force_W = pose.dcm_WL * load.force_L;
+  acting.r_FB_W = load.at_system_com ? center_of_mass(links)
+                                     : Vector3d(pose.r_LB_W + pose.dcm_WL * load.r_FL_L);
+  return acting;
+}
+
+void ForceModel::apply_loads(std::span<const LinkPose> links, std::span<Wrench> wrenches) const {
+  for (const HeldLoad& load : acting_loads_) {
+    const ActingLoad now = acting(load, links);
+    Wrench& wrench = wrenches[static_cast<std::size_t>(load.link)];
+    wrench.torque_PntB_W += now.torque_W;
+    if (!load.pushes) continue;
+    wrench.force_W += now.force_W;
+    wrench.torque_PntB_W += now.r_FB_W.cross(now.force_W);
+  }
+}
+
+Work ForceModel::work_of_loads(std::span<const LinkPose> links,
+                               std::span<const LinkRate> rates) const {
+  Work work;
   for (const HeldLoad& load : acting_loads_) {
     const auto link = static_cast<std::size_t>(load.link);
-    const LinkPose& pose = links[link];
-    const Vector3d torque_W = pose.dcm_WL * load.torque_L;
-    wrenches[link].torque_PntB_W += torque_W;
-    if (!rates.empty()) work.power += torque_W.dot(rates[link].omega_LN_W);
-    if (!load.pushes) continue;
-    const Vector3d force_W = pose.dcm_WL * load.force_L;
-    const Vector3d r_FB_W = load.at_system_com ? center_of_mass(links)
-                                               : Vector3d(pose.r_LB_W + pose.dcm_WL * load.r_FL_L);
-    wrenches[link].force_W += force_W;
-    wrenches[link].torque_PntB_W += r_FB_W.cross(force_W);
-    if (rates.empty()) continue;
+    const ActingLoad now = acting(load, links);
     const LinkRate& rate = rates[link];
-    work.force_W += force_W;
-    work.power += force_W.dot(rate.v_LB_W + rate.omega_LN_W.cross(r_FB_W - pose.r_LB_W));
+    work.force_W += now.force_W;
+    work.torque_PntB_W += now.torque_W + now.r_FB_W.cross(now.force_W);
+    work.power +=
+        now.torque_W.dot(rate.omega_LN_W) +
+        now.force_W.dot(rate.v_LB_W + rate.omega_LN_W.cross(now.r_FB_W - links[link].r_LB_W));
   }
+  return work;
 }
 
 void ForceModel::apply(const Vector3d& r_BN_W, std::span<const LinkPose> links,
@@ -148,7 +166,8 @@ Work ForceModel::apply(const Vector3d& r_BN_W, std::span<const LinkPose> links,
   if (is_idle()) return work;
   std::ranges::fill(wrenches, Wrench{});
   if (gravity_acts_) apply_gravity(r_BN_W, links, rates, wrenches, work);
-  apply_loads(links, rates, wrenches, work);
+  apply_loads(links, wrenches);
+  if (!rates.empty()) work += work_of_loads(links, rates);
   return work;
 }
 

@@ -46,12 +46,14 @@ WrenchSums sum_up(std::span<const Wrench> wrenches, std::span<const LinkPose> li
 /// Of the part of some wrenches that has no potential: what it does to links that move as in
 /// LinkRate, and the force that a common velocity adds the rest for.
 struct Work {
-  double power = 0.0;                   // [W]
-  Vector3d force_W = Vector3d::Zero();  // [N]
+  double power = 0.0;                         // [W]
+  Vector3d force_W = Vector3d::Zero();        // [N]
+  Vector3d torque_PntB_W = Vector3d::Zero();  // [N m]
 
   Work& operator+=(const Work& more) {
     power += more.power;
     force_W += more.force_W;
+    torque_PntB_W += more.torque_PntB_W;
     return *this;
   }
 };
@@ -72,6 +74,8 @@ class ForceModel {
   /// No link feels anything now: apply() leaves the wrenches as they are. Gravity may still make
   /// the vehicle fall as a whole.
   bool is_idle() const { return !gravity_acts_ && acting_loads_.empty(); }
+  /// Gravity is felt by no link: the loads are all that apply() would find.
+  bool has_loads_alone() const { return !gravity_acts_; }
 
   /// fall() depends on where the links are.
   bool falls_as_a_whole() const {
@@ -84,6 +88,8 @@ class ForceModel {
   /// The same, for links that move. @return of loads and gravity-gradient torques
   Work apply(const Vector3d& r_BN_W, std::span<const LinkPose> links,
              std::span<const LinkRate> rates, std::span<Wrench> wrenches) const;
+  /// Of the loads alone, without their wrenches.
+  Work work_of_loads(std::span<const LinkPose> links, std::span<const LinkRate> rates) const;
 
   /// The common acceleration [m/s^2] of the falling frame in N, to be added to the hub's; zero in
   /// the inertial frame or without gravity. In N because turning a vector of orbital size into W
@@ -114,8 +120,11 @@ class ForceModel {
   // @param rates  empty: no work is asked for
   void apply_gravity(const Vector3d& r_BN_W, std::span<const LinkPose> links,
                      std::span<const LinkRate> rates, std::span<Wrench> wrenches, Work& work) const;
-  void apply_loads(std::span<const LinkPose> links, std::span<const LinkRate> rates,
-                   std::span<Wrench> wrenches, Work& work) const;
+  void apply_loads(std::span<const LinkPose> links, std::span<Wrench> wrenches) const;
+  struct ActingLoad {
+    Vector3d torque_W, force_W, r_FB_W;
+  };
+  ActingLoad acting(const HeldLoad& load, std::span<const LinkPose> links) const;
 
   double mu_;
   GravityLaw law_;

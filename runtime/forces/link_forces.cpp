@@ -40,6 +40,7 @@ Work LinkForces::add(const Place& place, std::span<const LinkPose> poses,
     wrenches[i].force_W += force;
     wrenches[i].torque_PntB_W += torque + poses[i].r_LB_W.cross(force);
     work.force_W += force;
+    work.torque_PntB_W += torque + poses[i].r_LB_W.cross(force);
     work.power += force.dot(rates[i].v_LB_W) + torque.dot(rates[i].omega_LN_W);
   });
   return work;
