@@ -17,7 +17,8 @@ void PropellantLedger::hold(const Inputs& inputs) {
   for (std::size_t k = 0; k < tanks_.size(); ++k) {
     tanks_[k] = inputs.tanks[k];
     share_rates_[k] = tanks_[k].share_rate();
-    is_idle_ = is_idle_ && tanks_[k].flow == 0.0;  // a flow may be driven
+    // A flow may be driven, or have been before a snapshot.
+    is_idle_ = is_idle_ && tanks_[k].flow == 0.0 && tanks_[k].spent == 0.0;
   }
 }
 

@@ -14,7 +14,7 @@ class PropellantLedger {
  public:
   explicit PropellantLedger(const std::vector<Tank>& tanks);
 
-  /// Nothing ever flows: all shares stay 1.
+  /// Nothing has ever flowed and nothing will by schedule: all shares are 1.
   bool is_idle() const { return is_idle_; }
 
   void hold(const Inputs& inputs);

@@ -93,6 +93,22 @@ TEST_P(Flights, GoOnFromASnapshotToTheBit) {
   EXPECT_EQ(flown(flight), state_of(other));
 }
 
+/// The engine that goes on was built of a model in which nothing ever flows.
+TEST_P(Flights, GoOnFromASnapshotThatHasSpentWhatNoScheduleTakes) {
+  Bundle bundle = burn();
+  for (Tank& tank : bundle.model.tanks) tank.mass_flow = {};
+  const auto a = engine(bundle), b = engine(bundle);
+  Flight flight(*a, bundle.model), other(*b, bundle.model);
+  const int flow = flight.inputs().layout.tank_flow(0);
+  flight.drive(flow, 10.0);
+  flight.advance_to(4.0);
+  flight.drive(flow, 0.0);
+  other.restore(flight.snapshot());
+  EXPECT_EQ(b->observe(5.0, other.state()).mass, a->observe(5.0, flight.state()).mass);
+  EXPECT_NEAR(b->observe(5.0, other.state()).mass, 1050.0 - 40.0, 1e-9);
+  EXPECT_EQ(flown(other), flown(flight));
+}
+
 TEST_P(Flights, DrivenWithZerosWhereTheScheduleIsZeroHaveTheSameBytes) {
   Bundle bundle = burn();
   bundle.model.loads.push_back({"push", 0, {}, {}, Vector3d(0.1, 0.2, 0.3)});
