@@ -13,7 +13,7 @@
 #include "compiler/ir/inputs.h"
 #include "compiler/ir/model.h"
 #include "runtime/bsm/tree.h"
-#include "runtime/forces/share.h"
+#include "runtime/forces/element_now.h"
 
 namespace twincraft::bsm {
 

@@ -155,11 +155,6 @@ Work ForceModel::work_of_loads(std::span<const LinkPose> links,
   return work;
 }
 
-void ForceModel::apply(const Vector3d& r_BN_W, std::span<const LinkPose> links,
-                       std::span<Wrench> wrenches) const {
-  apply(r_BN_W, links, {}, wrenches);
-}
-
 Work ForceModel::apply(const Vector3d& r_BN_W, std::span<const LinkPose> links,
                        std::span<const LinkRate> rates, std::span<Wrench> wrenches) const {
   Work work;

@@ -14,7 +14,7 @@
 
 #include "compiler/ir/inputs.h"
 #include "compiler/ir/model.h"
-#include "runtime/forces/share.h"
+#include "runtime/forces/element_now.h"
 
 namespace twincraft {
 
@@ -83,9 +83,8 @@ class ForceModel {
   }
 
   /// Set the wrench of every link, unless idle.
-  void apply(const Vector3d& r_BN_W, std::span<const LinkPose> links,
-             std::span<Wrench> wrenches) const;
-  /// The same, for links that move. @return of loads and gravity-gradient torques
+  /// @param rates  of the links, for what is returned; empty: no work is asked for
+  /// @return of loads and gravity-gradient torques
   Work apply(const Vector3d& r_BN_W, std::span<const LinkPose> links,
              std::span<const LinkRate> rates, std::span<Wrench> wrenches) const;
   /// Of the loads alone, without their wrenches.

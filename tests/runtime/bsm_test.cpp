@@ -105,7 +105,7 @@ TEST(Kernel, FeelsTheGravityOfTheForceRoom) {
       for (const Link& link : model.assembly.links) elements.push_back(link.elements);
       const ForceModel forces(model, law, elements, FieldFrame::kFalling);
       std::vector<Wrench> wrenches(motion.poses.size());
-      forces.apply(r_BN, motion.poses, wrenches);
+      forces.apply(r_BN, motion.poses, {}, wrenches);
       const Vector3d g = forces.fall(r_BN, Matrix3d::Identity(), motion.poses);
       std::vector<Vector3d> force_L, torque_L;
       for (std::size_t i = 0; i < wrenches.size(); ++i) {

@@ -54,7 +54,7 @@ Scene random_scene() {
 std::pair<Vector3d, Vector3d> totals(const Scene& s, GravityLaw law, FieldFrame frame) {
   const ForceModel forces(s.model, law, s.elements, frame);
   std::vector<Wrench> wrenches(s.poses.size());
-  forces.apply(s.r_BN, s.poses, wrenches);
+  forces.apply(s.r_BN, s.poses, {}, wrenches);
   const Vector3d common = forces.fall(s.r_BN, Matrix3d::Identity(), s.poses);
   double mass = 0.0;
   Vector3d moment = Vector3d::Zero();
@@ -110,7 +110,7 @@ TEST(ForceModel, ActsWithALoadOnlyWhileItLasts) {
   forces.hold(inputs_at(scene.model, 10.0));
   EXPECT_FALSE(forces.is_idle());
   std::vector<Wrench> wrenches(scene.poses.size());
-  forces.apply(scene.r_BN, scene.poses, wrenches);
+  forces.apply(scene.r_BN, scene.poses, {}, wrenches);
   EXPECT_LT((wrenches[1].torque_PntB_W - scene.poses[1].dcm_WL.col(0) * 2.0).norm(), 1e-15);
   forces.hold(inputs_at(scene.model, 20.0));
   EXPECT_TRUE(forces.is_idle());

@@ -241,6 +241,16 @@ TEST(Proof, FindsAWheelThatTurnsTheWrongWay) {
   EXPECT_THAT(failing(report), testing::Contains("hub angular acceleration"));
 }
 
+/// Both engines are fed the same inputs; where they take them to is their own.
+TEST(Proof, FindsALoadOnAnotherLink) {
+  Model model = scheduled(test::wheels_and_panels());
+  Load push{"push", 0, {}, {}, Vector3d::Zero()};
+  push.torque_L[0] = Schedule::constant(5.0);
+  model.loads = {push};
+  const ProofReport report = against(model, [](Model& changed) { changed.loads[0].link = 1; });
+  EXPECT_THAT(failing(report), testing::Contains("hub angular acceleration"));
+}
+
 TEST(Proof, FindsACoordinateTooMany) {
   const ProofReport report = against(scheduled(test::wheels_and_panels()), [](Model& model) {
     model.assembly.rotors.pop_back();
