@@ -34,11 +34,11 @@ void check(const LoadSpec& load, const Context& context, Diagnostics& diagnostic
 void lower(const LoadSpec& spec, const Vehicle&, ModelBuilder& builder) {
   Load load;
   load.name = spec.name;
-  load.force_L = spec.force;
-  load.torque_L = spec.torque;
+  load.force_M = spec.force;
+  load.torque_M = spec.torque;
   if (spec.during) {
-    for (Schedule& component : load.force_L) component = component.during(*spec.during);
-    for (Schedule& component : load.torque_L) component = component.during(*spec.during);
+    for (Schedule& component : load.force_M) component = component.during(*spec.during);
+    for (Schedule& component : load.torque_M) component = component.during(*spec.during);
   }
   if (const Vector3d* point = std::get_if<Vector3d>(&spec.position)) load.r_FL_L = *point;
   builder.add_load(builder.find_mount(spec.mount), std::move(load));

@@ -202,17 +202,19 @@ void ModelBuilder::add_coordinate(Coordinate::Kind kind, const std::string& name
 
 void ModelBuilder::add_load(const Mount& mount, Load load) {
   load.link = mount.link;
-  load.force_L = on_link(mount, load.force_L);
-  load.torque_L = on_link(mount, load.torque_L);
+  load.force_L = on_link(mount, load.force_M);
+  load.torque_L = on_link(mount, load.torque_M);
+  load.dcm_LM = mount.dcm_LM;
   if (load.r_FL_L) load.r_FL_L = mount.point_on_link(*load.r_FL_L);
   model_.loads.push_back(std::move(load));
 }
 
-void ModelBuilder::add_nozzle(const Mount& mount, Nozzle nozzle) {
-  if (at(model_.tanks, nozzle.tank).momentum == LeavingMomentum::kNone) return;
+int ModelBuilder::add_nozzle(const Mount& mount, Nozzle nozzle) {
+  if (at(model_.tanks, nozzle.tank).momentum == LeavingMomentum::kNone) return -1;
   nozzle.link = mount.link;
   nozzle.r_PL_L = mount.point_on_link(nozzle.r_PL_L);
   model_.nozzles.push_back(std::move(nozzle));
+  return size_of(model_.nozzles) - 1;
 }
 
 Model ModelBuilder::build() && {

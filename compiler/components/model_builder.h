@@ -96,11 +96,13 @@ class ModelBuilder {
   /// @param rate      initial [rad/s] or [m/s]
   void add_coordinate(Coordinate::Kind kind, const std::string& name, int index, double position,
                       double rate);
-  /// `load` is in the mount's axes, about its origin; `load.link` is set here.
+  /// `load` says what it is in the mount's axes, about its origin; what it is on its link is set
+  /// here.
   void add_load(const Mount& mount, Load load);
   /// `nozzle.r_PL_L` is in the mount's axes, from its origin; `nozzle.link` is set here. Left out
   /// where the propellant of its tank takes no momentum along. @pre the tank was added
-  void add_nozzle(const Mount& mount, Nozzle nozzle);
+  /// @return its index; -1: left out
+  int add_nozzle(const Mount& mount, Nozzle nozzle);
 
   /// Forces that follow the motion of links: a component adds its own, in link axes.
   Forces& forces() { return model_.forces; }

@@ -56,9 +56,14 @@ Schedule thrust_of(const ThrusterSpec& thruster) {
   return thruster.during ? thruster.thrust.during(*thruster.during) : thruster.thrust;
 }
 
+/// [kg/(N s)] @pre it has `isp`
+static double flow_per_thrust(const ThrusterSpec& thruster) {
+  return 1.0 / (kStandardGravity * thruster.isp.value());
+}
+
 /// Of one thruster [kg/s]. @pre it has `isp`
 static Schedule mass_flow_of(const ThrusterSpec& thruster) {
-  return thrust_of(thruster).scaled(1.0 / (kStandardGravity * thruster.isp.value()));
+  return thrust_of(thruster).scaled(flow_per_thrust(thruster));
 }
 
 Schedule mass_flow_of(const std::vector<ThrusterSpec>& thrusters, const std::string& tank) {
@@ -112,25 +117,24 @@ void check_depletion(const TankSpec& spec, const std::vector<ThrusterSpec>& thru
 }
 
 void lower(const ThrusterSpec& spec, const Vehicle&, ModelBuilder& builder) {
+  const Mount mount = builder.find_mount(spec.mount);
+  Thruster thruster{thrust_of(spec), spec.direction};
+  if (spec.tank) {
+    thruster.tank = builder.find_tank(*spec.tank);
+    thruster.flow_per_thrust = flow_per_thrust(spec);
+    thruster.nozzle =
+        builder.add_nozzle(mount, {spec.name, thruster.tank, 0, spec.position, mass_flow_of(spec)});
+  }
   Load load;
   load.name = spec.name;
   load.r_FL_L = spec.position;
-  load.is_thruster = true;
-  const Schedule thrust = thrust_of(spec);
   for (int i = 0; i < 3; ++i) {
     // A component that is always zero makes no events.
     if (spec.direction[i] == 0.0) continue;
-    load.force_L.at(static_cast<std::size_t>(i)) = thrust.scaled(spec.direction[i]);
+    load.force_M.at(static_cast<std::size_t>(i)) = thruster.thrust.scaled(spec.direction[i]);
   }
-  const Mount mount = builder.find_mount(spec.mount);
+  load.thruster = std::move(thruster);
   builder.add_load(mount, std::move(load));
-  if (!spec.tank) return;
-  Nozzle nozzle;
-  nozzle.name = spec.name;
-  nozzle.tank = builder.find_tank(*spec.tank);
-  nozzle.r_PL_L = spec.position;
-  nozzle.mass_flow = mass_flow_of(spec);
-  builder.add_nozzle(mount, std::move(nozzle));
 }
 
 }  // namespace twincraft

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "compiler/ir/model.h"
+#include "compiler/ir/signals.h"
 
 namespace twincraft {
 
@@ -35,8 +36,8 @@ struct Inputs {
   Vector3d vector(int i) const { return Vector3d::Map(&u[static_cast<std::size_t>(i)]); }
 };
 
-/// Follows the schedules of a model, which must outlive it; an input that is driven holds its value
-/// in place of its schedule.
+/// Follows the schedules of a model, which must outlive it. A port (see signals.h) that is driven
+/// holds its value in place of its schedule, and one whose tank has run empty holds zero.
 class InputFeed {
  public:
   explicit InputFeed(const Model& model);
@@ -47,33 +48,57 @@ class InputFeed {
   /// in time, where nothing may be driven, all are again. No allocation.
   const Inputs& begin(double time);
 
-  /// From `time` on. Driving an input with the value that it has changes nothing. @pre time is not
+  /// From `time` on. Driving a port with the value that it has changes nothing. @pre time is not
   /// before that of the last call
-  const Inputs& drive(int input, double value, double time);
-  const Inputs& release(int input, double time);
+  const Inputs& drive(std::size_t port, double value, double time);
+  const Inputs& release(std::size_t port, double time);
+  /// Of a port: what acts.
+  double value(std::size_t port) const { return value_at(port, now_.inputs.since); }
+  bool is_driven(std::size_t port) const { return now_.is_driven[port]; }
+
+  /// When the first tank runs empty at the flows of now [s]; infinite: none does.
+  double empty_at() const;
+  /// From `time` on: what draws from the tanks that are empty then has stopped for good.
+  const Inputs& stop_empty(double time);
 
   /// How far it is: a value that another feed of the same model goes on from.
   struct Position {
     Inputs inputs;
     std::vector<std::size_t> next;  // of each tank's flow, the entry that comes next
-    std::vector<bool> is_driven;    // of each input
+    std::vector<bool> is_driven;    // of each port
+    std::vector<double> driven;     // what it is driven with
+    std::vector<bool> is_empty;     // of each tank
   };
   const Position& position() const { return now_; }
   void go_on_from(const Position& position) { now_ = position; }
 
  private:
+  /// What a port adds to an input: (value part) turn.
+  struct Term {
+    std::size_t port = 0;
+    double part = 1.0, turn = 1.0;
+  };
+
   void fill_tanks();
-  void set(int input, double value, double time);
+  bool is_changed(std::size_t port) const;
+  double value_at(std::size_t port, double time) const;
+  double input_at(std::size_t input, double time) const;
+  /// Set the inputs that a port acts as, and the drains that it feeds, anew.
+  void follow(std::size_t port, double time);
 
   const Model& model_;
   std::vector<const Schedule*> schedules_;  // of every input, in the order of the layout
+  std::vector<Port> ports_;
+  std::vector<std::vector<Term>> terms_;  // of every input
   Position now_;
 };
 
 /// The inputs of a model from `time` [s] on, once.
 Inputs inputs_at(const Model& model, double time);
 
-/// The times [s] inside the run at which an input changes. Ascending, without repeats.
+/// The times [s] in (0, end) at which an input changes. Ascending, without repeats.
+std::vector<double> input_events(const Model& model, double end);
+/// Those inside the run.
 std::vector<double> input_events(const Model& model);
 
 }  // namespace twincraft

@@ -16,15 +16,29 @@
 
 namespace twincraft {
 
-/// A force and a torque fixed in a link's axes. Intervals are already folded into the schedules.
+/// What makes a load a thruster: something flows out against its force.
+struct Thruster {
+  Schedule thrust;                          // [N]
+  Vector3d direction_M = Vector3d::Zero();  // unit vector of the force, mount axes
+  int tank = -1;                            // Model::tanks entry it draws from; -1: none
+  int nozzle = -1;                          // Model::nozzles entry; -1: none
+  double flow_per_thrust = 0.0;             // [kg/(N s)] out of the tank
+};
+
+/// A force and a torque fixed in the axes of a mount, itself fixed on a link. Intervals are already
+/// folded into the schedules.
 struct Load {
   std::string name;
   int link = 0;
-  std::array<Schedule, 3> force_L;   // [N]
+  std::array<Schedule, 3> force_L;   // [N] link axes
   std::array<Schedule, 3> torque_L;  // [N m]
   // Where the force acts: a point from the link's origin [m], or the system centre of mass.
   std::optional<Vector3d> r_FL_L;
-  bool is_thruster = false;  // something flows out against the force
+  std::optional<Thruster> thruster = {};
+  // The same as the spec says it, in mount axes. A thruster says it by itself.
+  std::array<Schedule, 3> force_M = {};
+  std::array<Schedule, 3> torque_M = {};
+  Matrix3d dcm_LM = Matrix3d::Identity();
 };
 
 enum class GravityLaw {

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -30,7 +31,11 @@ struct Drain {
 
   double content(double time) const { return full - spent_at(time); }  // [kg]
   double share(double time) const { return content(time) / full; }     // of what it held
-  double share_rate() const { return -flow / full; }                   // [1/s]
+  /// When nothing is left at this flow [s]; infinite: it does not flow.
+  double empty_at() const {
+    return flow > 0.0 ? since + (full - spent) / flow : std::numeric_limits<double>::infinity();
+  }
+  double share_rate() const { return -flow / full; }  // [1/s]
   /// Another flow from `time` [s] on. @pre not before `since`, unless both are before t = 0
   void change(double time, double to) {
     spent = spent_at(time);

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "compiler/ir/inputs.h"
+
 namespace twincraft {
 namespace {
 
@@ -63,28 +65,77 @@ std::vector<Coordinate> wheels_of(const Model& model) {
   return wheels;
 }
 
-/// Nothing for a coordinate that no schedule acts on.
-std::optional<Signal> effort_on(const Coordinate& coordinate) {
-  switch (coordinate.kind) {
-    case Coordinate::Kind::kWheel:
-      return Signal{coordinate.name + ".torque", "", "N m", "motor torque on the wheel"};
-    case Coordinate::Kind::kBodyAngle:
-      return Signal{coordinate.name + ".torque", "", "N m", "torque of the joint"};
-    case Coordinate::Kind::kBodyDisplacement:
-      return Signal{coordinate.name + ".force", "", "N", "force of the joint"};
-    default:
-      return std::nullopt;
-  }
-}
+/// Collects what may be driven, and where each number of it ends up.
+class InputSignals {
+ public:
+  explicit InputSignals(const Model& model) : model_(model), at_(model) {}
 
-void add_inputs(const Load& load, std::vector<Signal>& inputs) {
-  if (load.is_thruster) {
-    inputs.push_back({load.name + ".thrust", "", "N", "thrust"});
-    return;
+  std::vector<InputSignal> all() && {
+    for (const Coordinate& coordinate : model_.coordinates) add(coordinate);
+    for (std::size_t i = 0; i < model_.loads.size(); ++i) add(model_.loads[i], static_cast<int>(i));
+    return std::move(signals_);
   }
-  inputs.push_back({load.name + ".force", kAxes, "N", "force, axes of the mount"});
-  inputs.push_back({load.name + ".torque", kAxes, "N m", "torque, axes of the mount"});
-}
+
+ private:
+  /// Nothing for a coordinate that no schedule acts on.
+  void add(const Coordinate& coordinate) {
+    const int entry = static_cast<int>(coordinate.entry());
+    if (coordinate.is_wheel())
+      return add_one(
+          {coordinate.name + ".torque", "", "N m", "motor torque on the wheel"},
+          {&model_.assembly.rotors[coordinate.entry()].torque, {{at_.motor_torque(entry)}}});
+    const Port effort{&model_.assembly.links[coordinate.entry() + 1].joint.effort,
+                      {{at_.effort(entry)}}};
+    if (coordinate.kind == Coordinate::Kind::kBodyAngle)
+      add_one({coordinate.name + ".torque", "", "N m", "torque of the joint"}, effort);
+    if (coordinate.kind == Coordinate::Kind::kBodyDisplacement)
+      add_one({coordinate.name + ".force", "", "N", "force of the joint"}, effort);
+  }
+
+  void add(const Load& load, int index) {
+    if (load.thruster) return add_thrust(load, *load.thruster, at_.force(index));
+    signals_.push_back({{load.name + ".force", kAxes, "N", "force, axes of the mount"},
+                        ports(load.force_M, load.dcm_LM, at_.force(index))});
+    signals_.push_back({{load.name + ".torque", kAxes, "N m", "torque, axes of the mount"},
+                        ports(load.torque_M, load.dcm_LM, at_.torque(index))});
+  }
+
+  void add_thrust(const Load& load, const Thruster& thruster, int force) {
+    Port port{&thruster.thrust, {}, thruster.tank};
+    for (int axis = 0; axis < 3; ++axis)
+      if (thruster.direction_M[axis] != 0.0)
+        push_along(axis, thruster.direction_M[axis], load.dcm_LM, force, port);
+    if (thruster.tank >= 0)
+      port.shares.push_back({at_.tank_flow(thruster.tank), thruster.flow_per_thrust});
+    if (thruster.nozzle >= 0)
+      port.shares.push_back({at_.nozzle_flow(thruster.nozzle), thruster.flow_per_thrust});
+    add_one({load.name + ".thrust", "", "N", "thrust"}, std::move(port));
+  }
+
+  static std::vector<Port> ports(const std::array<Schedule, 3>& vector, const Matrix3d& dcm_LM,
+                                 int first) {
+    std::vector<Port> ports;
+    for (int axis = 0; axis < 3; ++axis) {
+      Port& port = ports.emplace_back(Port{&vector.at(static_cast<std::size_t>(axis)), {}});
+      push_along(axis, 1.0, dcm_LM, first, port);
+    }
+    return ports;
+  }
+
+  /// @param axis  of the mount  @param first  input of the link's x axis
+  static void push_along(int axis, double part, const Matrix3d& dcm_LM, int first, Port& port) {
+    for (int i = 0; i < 3; ++i)
+      if (dcm_LM(i, axis) != 0.0) port.shares.push_back({first + i, part, dcm_LM(i, axis)});
+  }
+
+  void add_one(Signal signal, Port port) {
+    signals_.push_back({std::move(signal), {std::move(port)}});
+  }
+
+  const Model& model_;
+  InputLayout at_;
+  std::vector<InputSignal> signals_;
+};
 
 }  // namespace
 
@@ -124,19 +175,13 @@ std::vector<Signal> states_of(const Model& model, AttitudeChart chart) {
   return states;
 }
 
-std::vector<Signal> inputs_of(const Model& model) {
-  std::vector<Signal> inputs;
-  for (const Coordinate& coordinate : model.coordinates)
-    if (std::optional<Signal> effort = effort_on(coordinate)) inputs.push_back(std::move(*effort));
-  for (const Load& load : model.loads) add_inputs(load, inputs);
-  return inputs;
-}
+std::vector<InputSignal> inputs_of(const Model& model) { return InputSignals(model).all(); }
 
-std::vector<std::string> component_names(const std::vector<Signal>& signals) {
-  std::vector<std::string> names;
-  for (const Signal& signal : signals)
-    for (std::size_t i = 0; i < signal.size(); ++i) names.push_back(signal.component(i));
-  return names;
+std::vector<Port> ports_of(const Model& model) {
+  std::vector<Port> ports;
+  for (InputSignal& input : inputs_of(model))
+    for (Port& port : input.ports) ports.push_back(std::move(port));
+  return ports;
 }
 
 std::string joint_name(const Model& model, std::size_t joint) {

@@ -41,16 +41,41 @@ struct OutputSignal : Signal {
   std::optional<Coordinate> coordinate = {};  // whose it is; none: the hub's or the vehicle's
 };
 
+/// One number of an input: what it follows until it is driven, and what it acts as.
+struct Port {
+  /// Inputs::u[input] gets (value * part) * turn.
+  struct Share {
+    int input = 0;
+    double part = 1.0, turn = 1.0;
+  };
+  const Schedule* schedule = nullptr;  // of the model
+  std::vector<Share> shares;
+  int tank = -1;  // Model::tanks entry that it draws from, and stops with; -1: none
+};
+
+/// A signal that a run may be driven by.
+struct InputSignal : Signal {
+  std::vector<Port> ports;  // one per component
+};
+
 /// In the order of the CSV's columns, time apart.
 std::vector<OutputSignal> outputs_of(const Model& model);
 /// In the order of the state vector of an engine with this chart.
 std::vector<Signal> states_of(const Model& model, AttitudeChart chart);
 /// What may act by schedule: wheels and joints of bodies in the order of the spec, then thrusters
-/// and loads. All of them, whether or not the spec gives them a schedule.
-std::vector<Signal> inputs_of(const Model& model);
+/// and loads. All of them, whether or not the spec gives them a schedule. It refers to `model`.
+std::vector<InputSignal> inputs_of(const Model& model);
+/// Their numbers, in the same order.
+std::vector<Port> ports_of(const Model& model);
 
 /// The name of every number of `signals`.
-std::vector<std::string> component_names(const std::vector<Signal>& signals);
+template <class OneSignal>
+std::vector<std::string> component_names(const std::vector<OneSignal>& signals) {
+  std::vector<std::string> names;
+  for (const Signal& signal : signals)
+    for (std::size_t i = 0; i < signal.size(); ++i) names.push_back(signal.component(i));
+  return names;
+}
 
 /// Name of the coordinate that is an entry of the joint vector; `joint 3` where none is named.
 std::string joint_name(const Model& model, std::size_t joint);

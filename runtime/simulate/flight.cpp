@@ -30,7 +30,8 @@ std::vector<std::string> entry_names(const Model& model, AttitudeChart chart) {
 }
 
 /// Inputs change there, or a stored state waits: a run has to meet what it is held against.
-std::vector<double> events_of(const Model& model) {
+std::vector<double> events_of(const Model& model, bool has_end) {
+  if (!has_end) return input_events(model, std::numeric_limits<double>::infinity());
   std::vector<double> times = input_events(model);
   for (const StoredState& state : model.stored.states)
     if (state.time > 0.0 && state.time < model.simulation.duration) times.push_back(state.time);
@@ -98,7 +99,7 @@ Flight::Flight(Engine& engine, const Model& model, FlightOptions options)
       landings_(
           model.simulation.step,
           options.has_end ? model.simulation.duration : std::numeric_limits<double>::infinity(),
-          events_of(model)),
+          events_of(model, options.has_end)),
       feed_(model) {
   engine.hold(feed_.begin(0.0));
   std::ranges::copy(engine.initial_state(), stepper_.state().begin());
@@ -118,14 +119,30 @@ Books Flight::books() const {
 }
 
 void Flight::advance(const std::atomic<bool>* stop) {
+  if (fly_until_empty(landings_.peek().time, stop)) return;
   const Landing landing = landings_.next();
   step_to(landing.time, stop);
   if (landing.is_event) engine_.hold(feed_.begin(landing.time));
 }
 
 void Flight::advance_to(double time) {
-  while (!done() && landings_.peek().time <= time + tolerance()) advance();
-  if (!done() && time > time_ + tolerance()) step_to(time, nullptr);
+  while (!done() && landings_.peek().time < time - tolerance()) advance();
+  if (done() || time <= time_ + tolerance()) return;
+  while (fly_until_empty(time, nullptr)) {
+  }
+  const Landing landing = landings_.peek();
+  step_to(time, nullptr);
+  if (landing.time > time + tolerance()) return;
+  landings_.next();
+  if (landing.is_event) engine_.hold(feed_.begin(landing.time));
+}
+
+bool Flight::fly_until_empty(double time, const std::atomic<bool>* stop) {
+  const double empty = feed_.empty_at();
+  if (!(empty < time)) return false;
+  if (empty > time_) step_to(empty, stop);
+  if (time_ >= empty) engine_.hold(feed_.stop_empty(empty));
+  return true;
 }
 
 void Flight::step_to(double time, const std::atomic<bool>* stop) {
@@ -152,9 +169,11 @@ void Flight::fail() const {
   throw NumericalFailure(fmt::format("`{}` is not finite", names_[entry]));
 }
 
-void Flight::drive(int input, double value) { engine_.hold(feed_.drive(input, value, time_)); }
+void Flight::drive(std::size_t port, double value) {
+  engine_.hold(feed_.drive(port, value, time_));
+}
 
-void Flight::release(int input) { engine_.hold(feed_.release(input, time_)); }
+void Flight::release(std::size_t port) { engine_.hold(feed_.release(port, time_)); }
 
 Flight::Snapshot Flight::snapshot() const {
   return {time_, stepper_.solution(), landings_.position(), feed_.position(), counts_, accepted_};

@@ -45,21 +45,26 @@ class Flight {
   const StepCounts& counts() const { return counts_; }
   const AcceptedErrors& accepted() const { return accepted_; }
 
-  /// To the next landing, or as far as an adaptive method got when `*stop` became true.
+  /// To the next landing or to where a tank runs empty before it, or as far as an adaptive method
+  /// got when `*stop` became true.
   /// @throws NumericalFailure; the engine is then beyond its last good step. @pre not done()
   void advance(const std::atomic<bool>* stop = nullptr);
 
   /// To exactly `time` [s], which splits a step unless it is a landing, or to the end where that
-  /// comes first. Pieces that end on landings give the bytes of one run.
+  /// comes first. Pieces that end on landings give the bytes of one run. A time that is over, or
+  /// closer than tolerance(), is where it is.
   /// @throws NumericalFailure
   void advance_to(double time);
 
   /// The inputs as they act now.
   const Inputs& inputs() const { return feed_.inputs(); }
-  /// Hold an input at a value from now on, in place of its schedule. @param input  see InputLayout
-  void drive(int input, double value);
+  /// Hold a port at a value from now on, in place of its schedule. @param port  of ports_of(model)
+  void drive(std::size_t port, double value);
   /// Give it back to its schedule.
-  void release(int input);
+  void release(std::size_t port);
+  /// What acts at a port.
+  double input(std::size_t port) const { return feed_.value(port); }
+  bool is_driven(std::size_t port) const { return feed_.is_driven(port); }
 
   /// Everything that the motion from here on depends on: a flight of the same model and engine goes
   /// on from it to the bit.
@@ -78,6 +83,9 @@ class Flight {
   class BookkeepingOde;
   class ExcusingOde;
 
+  /// To the next time before `time` at which a tank runs empty, and stop what draws from it.
+  /// @return whether there was one
+  bool fly_until_empty(double time, const std::atomic<bool>* stop);
   void step_to(double time, const std::atomic<bool>* stop);
   void step_adaptively(double to, const std::atomic<bool>* stop);
   [[noreturn]] void fail() const;

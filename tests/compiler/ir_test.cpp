@@ -132,7 +132,7 @@ Model named_model() {
                        {"rail", Kind::kBodyDisplacement, 1}};
   model.loads.resize(2);
   model.loads[0].name = "engine";
-  model.loads[0].is_thruster = true;
+  model.loads[0].thruster = Thruster{};
   model.loads[1].name = "push";
   return model;
 }
