@@ -160,6 +160,21 @@ std::vector<OutputSignal> outputs_of(const Model& model) {
   return outputs;
 }
 
+std::vector<OutputSignal> motion_of(const Model& model) {
+  if (model.simulation.translation) return {hub_position(), hub_velocity()};
+  std::vector<OutputSignal> motion{hub_position(), attitude()};
+  const auto add = [&](bool wheels, const auto& signal_of) {
+    for (const Coordinate& coordinate : model.coordinates)
+      if (coordinate.is_wheel() == wheels) motion.push_back(signal_of(coordinate));
+  };
+  add(false, position_of);
+  motion.push_back(hub_velocity());
+  motion.push_back(hub_rate());
+  add(false, rate_of);
+  add(true, rate_of);
+  return motion;
+}
+
 std::vector<Signal> states_of(const Model& model, AttitudeChart chart) {
   std::vector<Signal> states{hub_position(), hub_velocity()};
   if (model.simulation.translation) return states;

@@ -60,6 +60,9 @@ struct InputSignal : Signal {
 
 /// In the order of the CSV's columns, time apart.
 std::vector<OutputSignal> outputs_of(const Model& model);
+/// Those of outputs_of() that say where everything is and how it moves, whatever an engine's state
+/// vector looks like: positions, then rates, then wheels.
+std::vector<OutputSignal> motion_of(const Model& model);
 /// In the order of the state vector of an engine with this chart.
 std::vector<Signal> states_of(const Model& model, AttitudeChart chart);
 /// What may act by schedule: wheels and joints of bodies in the order of the spec, then thrusters

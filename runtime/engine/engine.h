@@ -5,7 +5,9 @@
 #include <Eigen/Core>
 #include <span>
 #include <stdexcept>
+#include <string>
 #include <string_view>
+#include <utility>
 
 #include "compiler/ir/engine_kind.h"
 #include "compiler/ir/inputs.h"
@@ -17,7 +19,9 @@ namespace twincraft {
 
 /// An engine can not go on: a non-finite state, an engine's own error. Says which coordinate.
 struct NumericalFailure : std::runtime_error {
-  using std::runtime_error::runtime_error;
+  explicit NumericalFailure(const std::string& what, std::string where = {})
+      : std::runtime_error(what), coordinate(std::move(where)) {}
+  std::string coordinate;  // a state's name; empty: of none
 };
 
 class Engine {

@@ -2,6 +2,9 @@
 // engine, whatever its state vector looks like. All comparison happens on these.
 #pragma once
 
+#include <cstddef>
+#include <span>
+
 #include "compiler/ir/signals.h"
 
 namespace twincraft {
@@ -36,6 +39,9 @@ inline double rate_of(const Coordinate& coordinate, const Observation& seen) {
 }
 /// One number of an output: the only place that knows where it is.
 double value_of(const OutputSignal& output, std::size_t component, const Observation& seen);
+/// Let a state have these numbers of an output. An attitude need not be normalised.
+/// @pre it is one of motion_of()
+void set_value(const OutputSignal& output, std::span<const double> numbers, VehicleState& state);
 
 /// Rates of what changes the books from outside; integrated beside the state in a recorded run.
 struct BookRates {

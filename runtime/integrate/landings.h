@@ -35,10 +35,10 @@ class Landings {
   };
   const Position& position() const { return next_; }
   void go_on_from(const Position& position) { next_ = position; }
-
- private:
+  /// The landing that comes next at a position, which goes past it. @pre not done there
   Landing follow(Position& at) const;
 
+ private:
   double step_;
   double duration_;
   std::vector<double> events_;

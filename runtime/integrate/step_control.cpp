@@ -149,7 +149,8 @@ void StepControl::fail(const RungeKutta& stepper, double time, const Verdict& ve
   if (!stepper.proposal_is_finite()) {
     const auto entry = static_cast<std::size_t>(stepper.first_non_finite());
     throw NumericalFailure(fmt::format("`{}` is not finite at t = {} s, however short the step",
-                                       names_[entry], shortest(time)));
+                                       names_[entry], shortest(time)),
+                           names_[entry]);
   }
   throw NumericalFailure(
       fmt::format("step underflow at t = {} s: no step meets the tolerance of "

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <limits>
 #include <utility>
 
@@ -103,6 +104,7 @@ Flight::Flight(Engine& engine, const Model& model, FlightOptions options)
       feed_(model) {
   engine.hold(feed_.begin(0.0));
   std::ranges::copy(engine.initial_state(), stepper_.state().begin());
+  if (options.steps_back) last_good_ = stepper_.solution();
 }
 
 Flight::~Flight() = default;
@@ -119,21 +121,29 @@ Books Flight::books() const {
 }
 
 void Flight::advance(const std::atomic<bool>* stop) {
-  if (fly_until_empty(landings_.peek().time, stop)) return;
-  const Landing landing = landings_.next();
+  Landings::Position after = landings_.position();
+  const Landing landing = landings_.follow(after);
+  if (fly_until_empty(landing.time, stop)) return;
   step_to(landing.time, stop);
+  landings_.go_on_from(after);
   if (landing.is_event) engine_.hold(feed_.begin(landing.time));
 }
 
+void Flight::advance_on_grid() {
+  const std::int64_t index = landings_.position().index;
+  while (!done() && landings_.position().index == index) advance();
+}
+
 void Flight::advance_to(double time) {
-  while (!done() && landings_.peek().time < time - tolerance()) advance();
+  while (!done() && next_landing() < time - tolerance()) advance();
   if (done() || time <= time_ + tolerance()) return;
   while (fly_until_empty(time, nullptr)) {
   }
-  const Landing landing = landings_.peek();
+  Landings::Position after = landings_.position();
+  const Landing landing = landings_.follow(after);
   step_to(time, nullptr);
   if (landing.time > time + tolerance()) return;
-  landings_.next();
+  landings_.go_on_from(after);
   if (landing.is_event) engine_.hold(feed_.begin(landing.time));
 }
 
@@ -146,6 +156,17 @@ bool Flight::fly_until_empty(double time, const std::atomic<bool>* stop) {
 }
 
 void Flight::step_to(double time, const std::atomic<bool>* stop) {
+  if (!last_good_) return step_or_fail(time, stop);
+  *last_good_ = stepper_.solution();
+  try {
+    step_or_fail(time, stop);
+  } catch (const NumericalFailure&) {
+    stepper_.go_on_from(*last_good_);
+    throw;
+  }
+}
+
+void Flight::step_or_fail(double time, const std::atomic<bool>* stop) {
   if (excusing_) return step_adaptively(time, stop);
   stepper_.step(time_, time - time_);
   counts_.evaluations += stepper_.tableau().stages;
@@ -158,15 +179,15 @@ void Flight::step_adaptively(double to, const std::atomic<bool>* stop) {
   excusing_->forgive();
   try {
     time_ = control_.advance(stepper_, time_, to, counts_, stop, &accepted_);
-  } catch (const NumericalFailure&) {
+  } catch (const NumericalFailure& failure) {
     if (excusing_->excuse().empty()) throw;
-    throw NumericalFailure(excusing_->excuse() + ", however short the step");
+    throw NumericalFailure(excusing_->excuse() + ", however short the step", failure.coordinate);
   }
 }
 
 void Flight::fail() const {
   const auto entry = static_cast<std::size_t>(stepper_.first_non_finite());
-  throw NumericalFailure(fmt::format("`{}` is not finite", names_[entry]));
+  throw NumericalFailure(fmt::format("`{}` is not finite", names_[entry]), names_[entry]);
 }
 
 void Flight::drive(std::size_t port, double value) {

@@ -4,7 +4,9 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -26,7 +28,8 @@ struct Books {
 
 struct FlightOptions {
   bool keeps_books = false;
-  bool has_end = true;  // at the plan's duration, else never
+  bool has_end = true;      // at the plan's duration, else never
+  bool steps_back = false;  // stands at the last good step end after a failure
 };
 
 class Flight {
@@ -47,7 +50,8 @@ class Flight {
 
   /// To the next landing or to where a tank runs empty before it, or as far as an adaptive method
   /// got when `*stop` became true.
-  /// @throws NumericalFailure; the engine is then beyond its last good step. @pre not done()
+  /// @throws NumericalFailure; the engine is then beyond its last good step unless it steps back.
+  /// @pre not done()
   void advance(const std::atomic<bool>* stop = nullptr);
 
   /// To exactly `time` [s], which splits a step unless it is a landing, or to the end where that
@@ -55,6 +59,14 @@ class Flight {
   /// closer than tolerance(), is where it is.
   /// @throws NumericalFailure
   void advance_to(double time);
+
+  /// To the next point of the grid k * step, event by event. @pre not done()
+  void advance_on_grid();
+  std::int64_t next_grid_point() const { return landings_.position().index; }
+  double next_landing() const { return landings_.peek().time; }  // [s] @pre not done()
+
+  /// Go on from another state of the engine; what rounding left over of earlier steps is dropped.
+  void restart(std::span<const double> state) { stepper_.restart(state); }
 
   /// The inputs as they act now.
   const Inputs& inputs() const { return feed_.inputs(); }
@@ -86,6 +98,7 @@ class Flight {
   /// To the next time before `time` at which a tank runs empty, and stop what draws from it.
   /// @return whether there was one
   bool fly_until_empty(double time, const std::atomic<bool>* stop);
+  void step_or_fail(double time, const std::atomic<bool>* stop);
   void step_to(double time, const std::atomic<bool>* stop);
   void step_adaptively(double to, const std::atomic<bool>* stop);
   [[noreturn]] void fail() const;
@@ -98,6 +111,7 @@ class Flight {
   StepControl control_;
   Landings landings_;
   InputFeed feed_;
+  std::optional<RungeKutta::Solution> last_good_;  // of a flight that steps back
   double time_ = 0.0;
   StepCounts counts_;
   AcceptedErrors accepted_;

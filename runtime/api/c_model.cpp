@@ -1,0 +1,153 @@
+// The C interface: models. See include/twincraft.h.
+#include <fmt/format.h>
+
+#include <cstring>
+#include <span>
+
+#include "compiler/diag/print.h"
+#include "runtime/api/handles.h"
+
+namespace twincraft::api {
+namespace {
+
+std::vector<std::string> overrides_of(const tc_load_options* options) {
+  if (options == nullptr || options->set_count == 0) return {};
+  return {options->set, options->set + options->set_count};
+}
+
+tc_status load(CompileRequest request, tc_model** out) noexcept {
+  if (out == nullptr) return TC_USAGE;
+  *out = new (std::nothrow) tc_model;
+  if (*out == nullptr) return TC_MEMORY;
+  tc_model& handle = **out;
+  return attempt(handle.parts.error, [&] {
+    Diagnostics diagnostics;
+    const auto keep = [&] { handle.diagnostics = to_json(diagnostics); };
+    try {
+      handle.model = CompiledModel::load(request, diagnostics);
+    } catch (...) {
+      keep();
+      throw;
+    }
+    keep();
+  });
+}
+
+const SignalList& list_of(const tc_model& handle, tc_signals which) {
+  switch (which) {
+    case TC_INPUTS:
+      return handle.model->inputs();
+    case TC_OUTPUTS:
+      return handle.model->outputs();
+    default:
+      return handle.model->states();
+  }
+}
+
+}  // namespace
+}  // namespace twincraft::api
+
+using namespace twincraft;
+using namespace twincraft::api;
+
+extern "C" {
+
+int tc_abi_version(void) { return TC_ABI_VERSION; }
+
+const char* tc_version(void) { return TWINCRAFT_VERSION; }
+
+tc_status tc_model_load(const char* path, const tc_load_options* options, tc_model** model) {
+  if (path == nullptr) return TC_USAGE;
+  return load({path, overrides_of(options)}, model);
+}
+
+tc_status tc_model_loads(const char* text, size_t length, const tc_load_options* options,
+                         tc_model** model) {
+  if (text == nullptr) return TC_USAGE;
+  const char* name = options != nullptr && options->name != nullptr ? options->name : "<string>";
+  return load({name, overrides_of(options), std::string(text, length)}, model);
+}
+
+void tc_model_free(tc_model* model) { delete model; }
+
+const char* tc_model_error(const tc_model* model) {
+  return model == nullptr ? "out of memory" : model->parts.error.c_str();
+}
+
+const char* tc_model_diagnostics(const tc_model* model) {
+  return model == nullptr ? "" : model->diagnostics.c_str();
+}
+
+const char* tc_model_text(const tc_model* model, tc_text which, size_t* length) {
+  static const std::string kNothing;
+  const std::string* text = &kNothing;
+  if (model != nullptr && model->is_whole()) {
+    const Bundle& bundle = model->model->bundle();
+    switch (which) {
+      case TC_NAME:
+        text = &bundle.model.name;
+        break;
+      case TC_DIGEST:
+        text = &model->model->digest();
+        break;
+      case TC_MJCF:
+        text = &bundle.text(kMjcf);
+        break;
+      case TC_ASSEMBLY:
+        text = &bundle.text(kAssemblyJson);
+        break;
+      case TC_RESOLVED:
+        text = &bundle.text(kResolved);
+        break;
+    }
+  }
+  if (length != nullptr) *length = text->size();
+  return text->c_str();
+}
+
+size_t tc_model_count(const tc_model* model, tc_signals which) {
+  return model == nullptr || !model->is_whole() ? 0 : list_of(*model, which).size();
+}
+
+const char* tc_model_signal_name(const tc_model* model, tc_signals which, size_t index) {
+  if (index >= tc_model_count(model, which)) return nullptr;
+  return list_of(*model, which).name(index).c_str();
+}
+
+const char* tc_model_signal_unit(const tc_model* model, tc_signals which, size_t index) {
+  if (index >= tc_model_count(model, which)) return nullptr;
+  return list_of(*model, which).unit(index).c_str();
+}
+
+tc_status tc_model_find(tc_model* model, tc_signals which, const char* name, size_t* index,
+                        size_t* count) {
+  return inside(model, Use::kAsks, [&] {
+    const SignalList::Range range = list_of(*model, which).find(name == nullptr ? "" : name);
+    if (index != nullptr) *index = range.first;
+    if (count != nullptr) *count = range.count;
+  });
+}
+
+int tc_model_degrees_of_freedom(const tc_model* model) {
+  return model == nullptr || !model->is_whole() ? 0 : model->model->model().degrees_of_freedom();
+}
+
+double tc_model_step(const tc_model* model) {
+  return model == nullptr || !model->is_whole() ? 0.0 : model->model->model().simulation.step;
+}
+
+double tc_model_duration(const tc_model* model) {
+  return model == nullptr || !model->is_whole() ? 0.0 : model->model->model().simulation.duration;
+}
+
+tc_status tc_model_mass_properties(tc_model* model, double* mass, double center_of_mass[3],
+                                   double inertia[9]) {
+  return inside(model, Use::kAsks, [&] {
+    const MassProperties all = model->model->mass_properties();
+    if (mass != nullptr) *mass = all.mass;
+    if (center_of_mass != nullptr) Vector3d::Map(center_of_mass) = all.r_CL_L;
+    if (inertia != nullptr) Matrix3d::Map(inertia) = all.I_PntC_L;
+  });
+}
+
+}  // extern "C"

@@ -1,0 +1,137 @@
+// See lanes_flight.h.
+#include "runtime/simulate/lanes_flight.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "compiler/ir/number.h"
+#include "compiler/ir/signals.h"
+#include "runtime/integrate/tableau.h"
+
+namespace twincraft {
+
+class LanesFlight::LanesOde final : public Ode {
+ public:
+  LanesOde(bsm::Kernel& kernel, int size) : kernel_(kernel), size_(size) {}
+  int size() const override { return size_; }
+  void derivative(double time, std::span<const double> state, std::span<double> rate) override {
+    kernel_.derivative(time, state.data(), rate.data());
+  }
+  void finish_step(std::span<double> state) override { kernel_.finish_step(state.data()); }
+
+ private:
+  bsm::Kernel& kernel_;
+  int size_;
+};
+
+namespace {
+
+StateLayout layout_of(const Model& model) {
+  return {model.engines.attitude, static_cast<int>(model.assembly.links.size()) - 1,
+          static_cast<int>(model.assembly.rotors.size())};
+}
+
+std::size_t entry(int i) { return static_cast<std::size_t>(i); }
+
+}  // namespace
+
+std::string LanesFlight::refusal(const Model& model) {
+  if (model.simulation.translation) return "it is a point mass";
+  if (!model.tanks.empty()) return "it has tanks";
+  if (tableau_of(model.simulation.method).adaptive) return "its method chooses its steps";
+  return {};
+}
+
+std::size_t LanesFlight::lanes() { return bsm::batch_lanes(bsm::best_instruction_set()); }
+
+LanesFlight::LanesFlight(const Model& model, const bsm::Plan& plan)
+    : model_(model),
+      layout_(layout_of(model)),
+      plans_(lanes(), &plan),
+      feeds_(lanes(), InputFeed(model)),
+      held_(lanes(), bsm::HeldInputs::none(model.assembly)),
+      kernel_(bsm::make_batch_kernel(plans_, bsm::best_instruction_set())),
+      ode_(std::make_unique<LanesOde>(*kernel_,
+                                      layout_.size() * static_cast<int>(kernel_->lanes()))),
+      stepper_(tableau_of(model.simulation.method), *ode_),
+      landings_(model.simulation.step, std::numeric_limits<double>::infinity(),
+                input_events(model, std::numeric_limits<double>::infinity())),
+      failures_(lanes()) {
+  const Eigen::VectorXd start = pack(model.initial, layout_);
+  for (std::size_t lane = 0; lane < lanes(); ++lane) {
+    feeds_[lane].begin(0.0);
+    set_state(lane, {start.data(), entry(layout_.size())});
+  }
+  hold();
+}
+
+LanesFlight::~LanesFlight() = default;
+
+void LanesFlight::advance_on_grid() {
+  const std::int64_t point = landings_.position().index;
+  while (landings_.position().index == point) {
+    const Landing landing = landings_.next();
+    stepper_.step(time_, landing.time - time_);
+    time_ = landing.time;
+    if (!stepper_.state_is_finite()) find_failures();
+    if (!landing.is_event) continue;
+    for (InputFeed& feed : feeds_) feed.begin(time_);
+    hold();
+  }
+}
+
+void LanesFlight::find_failures() {
+  std::vector<double> state(entry(layout_.size()));
+  for (std::size_t lane = 0; lane < lanes(); ++lane) {
+    if (!failures_[lane].empty()) continue;
+    read_state(lane, state);
+    const auto bad = std::ranges::find_if_not(state, [](double x) { return std::isfinite(x); });
+    if (bad == state.end()) continue;
+    const auto at = static_cast<std::size_t>(bad - state.begin());
+    failures_[lane] = fmt::format("`{}` is not finite at t = {} s",
+                                  component_names(states_of(model_, layout_.chart)).at(at),
+                                  shortest(time_));
+    std::ranges::fill(state, std::numeric_limits<double>::quiet_NaN());
+    for (std::size_t i = 0; i < state.size(); ++i) stepper_.state()[i * lanes() + lane] = state[i];
+  }
+}
+
+void LanesFlight::read_state(std::size_t lane, std::span<double> state) const {
+  const Eigen::VectorXd& all = stepper_.solution().value;
+  for (std::size_t i = 0; i < state.size(); ++i)
+    state[i] = all[static_cast<Eigen::Index>(i * plans_.size() + lane)];
+}
+
+void LanesFlight::set_state(std::size_t lane, std::span<const double> state) {
+  RungeKutta::Solution solution = stepper_.solution();
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    const auto at = static_cast<Eigen::Index>(i * plans_.size() + lane);
+    solution.value[at] = state[i];
+    solution.carry[at] = 0.0;
+  }
+  stepper_.go_on_from(solution);
+  failures_[lane].clear();
+}
+
+void LanesFlight::drive(std::size_t lane, std::size_t port, double value) {
+  feeds_[lane].drive(port, value, time_);
+}
+
+void LanesFlight::release(std::size_t lane, std::size_t port) {
+  feeds_[lane].release(port, time_);
+}
+
+void LanesFlight::hold() {
+  std::vector<const bsm::HeldInputs*> held;
+  for (std::size_t lane = 0; lane < held_.size(); ++lane) {
+    held_[lane].set(feeds_[lane].inputs(), model_.loads);
+    held.push_back(&held_[lane]);
+  }
+  kernel_->hold(plans_, held);
+}
+
+}  // namespace twincraft
