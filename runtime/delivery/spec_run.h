@@ -21,7 +21,7 @@ struct RunRequest {
   RunOptions options;
   int jobs = 1;         // members of a study at a time; from 2 on the engines of a single run, too
   std::string folder;   // files are written here while it is flown; empty: nowhere
-  bool netcdf = false;  // trajectories as netCDF, too
+  bool netcdf = false;  // trajectories as netCDF, too. @pre has_netcdf()
   // Keep what trajectory(), json() and save() need: the first member's samples in memory, the files
   // of a study in a folder of its own under the system's temporary directory.
   bool keeps_results = false;

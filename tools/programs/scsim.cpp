@@ -9,6 +9,7 @@
 #include "compiler/files/output.h"
 #include "runtime/delivery/room.h"
 #include "runtime/delivery/spec_run.h"
+#include "runtime/report/netcdf.h"
 #include "runtime/report/study_table.h"
 #include "tools/programs/attribute.h"
 #include "tools/programs/command.h"
@@ -145,6 +146,9 @@ int parse_and_run(int argc, char** argv) {
   describe(line, options);
   if (const std::optional<int> code = line.parse(argc, argv)) return *code;
   if (const std::optional<int> code = settle_flags("scsim", options)) return *code;
+  if (options.netcdf && !has_netcdf())
+    return report_usage("scsim", "`--netcdf` asks for what is missing: this build has no netCDF",
+                        "leave it out, or configure the build with `-DTWINCRAFT_NETCDF=ON`");
   if (options.no_timing && line.has("--trials") && options.trials > 0)
     complain("warning: `--trials` has no effect with `--no-timing`");
   if (options.no_timing) options.trials = 0;
