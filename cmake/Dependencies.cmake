@@ -24,11 +24,13 @@ set_target_properties(udunits_library PROPERTIES IMPORTED_LOCATION ${UDUNITS_LIB
                       INTERFACE_INCLUDE_DIRECTORIES ${UDUNITS_INCLUDE_DIR})
 
 # For writing trajectories; Debian's package file of it lists every library it was itself built with.
-find_path(NETCDF_INCLUDE_DIR netcdf_mem.h REQUIRED)
-find_library(NETCDF_LIBRARY netcdf REQUIRED)
-add_library(netcdf_library UNKNOWN IMPORTED)
-set_target_properties(netcdf_library PROPERTIES IMPORTED_LOCATION ${NETCDF_LIBRARY}
-                      INTERFACE_INCLUDE_DIRECTORIES ${NETCDF_INCLUDE_DIR})
+if(TWINCRAFT_NETCDF)
+  find_path(NETCDF_INCLUDE_DIR netcdf_mem.h REQUIRED)
+  find_library(NETCDF_LIBRARY netcdf REQUIRED)
+  add_library(netcdf_library UNKNOWN IMPORTED)
+  set_target_properties(netcdf_library PROPERTIES IMPORTED_LOCATION ${NETCDF_LIBRARY}
+                        INTERFACE_INCLUDE_DIRECTORIES ${NETCDF_INCLUDE_DIR})
+endif()
 
 # What reports show their figures with. Debian's builds; the terms lie in the package's documentation.
 find_path(DYGRAPHS_FOLDER dygraph.min.js PATHS /usr/share/javascript/dygraphs REQUIRED)

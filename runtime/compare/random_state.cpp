@@ -8,8 +8,6 @@
 namespace twincraft {
 namespace {
 
-constexpr std::uint64_t kSeed = 20240229;
-
 class Draw {
  public:
   /// Uniform in [-1, 1): the top 53 bits, because <random>'s distributions differ between
@@ -32,7 +30,7 @@ class Draw {
   }
 
  private:
-  std::mt19937_64 bits_{kSeed};
+  std::mt19937_64 bits_{kStateSeed};
 };
 
 RandomState draw_state(const Model& model, Draw& draw) {

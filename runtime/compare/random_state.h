@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <vector>
 
 #include "compiler/ir/model.h"
@@ -11,6 +12,9 @@
 namespace twincraft {
 
 struct StateLayout;
+
+/// Of random_states(), the same everywhere.
+inline constexpr std::uint64_t kStateSeed = 20240229;
 
 /// The scalar of q_BN is not negative.
 struct RandomState : VehicleState {

@@ -138,6 +138,8 @@ void define(const File& file, std::vector<Variable>& variables) {
 
 }  // namespace
 
+bool has_netcdf() { return true; }
+
 class NetcdfFile::Contents {
  public:
   Contents(const std::string& path, const Bundle& bundle, std::string_view engine,

@@ -11,12 +11,15 @@
 
 namespace twincraft {
 
+/// False in a build without the library (TWINCRAFT_NETCDF=OFF).
+bool has_netcdf();
+
 /// A file that is written while its samples come. The bytes are a function of the arguments and the
 /// samples alone.
 class NetcdfFile {
  public:
   /// @param path  of a file that is replaced
-  /// All throw std::runtime_error when the library fails.
+  /// All throw std::runtime_error when the library fails, or there is none.
   NetcdfFile(const std::string& path, const Bundle& bundle, std::string_view engine,
              const Provenance& provenance);
   ~NetcdfFile();

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "runtime/report/netcdf.h"
 #include "tests/support/run_program.h"
 
 namespace twincraft {
@@ -231,6 +232,7 @@ TEST_F(Scsim, ExplainsCodesAndNamesTheCommandThatWasMeant) {
 }
 
 TEST_F(Scsim, SaysWhatItWroteAndWhatTimingTakes) {
+  if (!has_netcdf()) GTEST_SKIP() << "this build has no netCDF";
   const ProgramResult result = run_spinner({"--trials", "1", "--netcdf"});
   EXPECT_THAT(result.err, HasSubstr("wrote report.json, report.html, bsm.csv, bsm.nc, mujoco.csv, "
                                     "mujoco.nc to `" +
@@ -266,7 +268,16 @@ TEST_F(Scsim, ExitsWithOneForAReferenceThatDoesNotApply) {
   EXPECT_THAT(result.err, HasSubstr("spin_up"));
 }
 
+TEST_F(Scsim, RefusesNetcdfInABuildWithoutIt) {
+  if (has_netcdf()) GTEST_SKIP() << "this build has netCDF";
+  const ProgramResult result = run_spinner({"--no-timing", "--netcdf"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr("this build has no netCDF"));
+  EXPECT_FALSE(folder.has("out"));
+}
+
 TEST_F(Scsim, WritesAPageToLookAtAndNetcdfWhenAskedTo) {
+  if (!has_netcdf()) GTEST_SKIP() << "this build has no netCDF";
   EXPECT_EQ(run_spinner({"--no-timing"}).exit_code, 0);
   EXPECT_THAT(folder.read("out/report.html"), HasSubstr("<span id=\"verdict\">The engines agree<"));
   EXPECT_FALSE(folder.has("out/bsm.nc"));

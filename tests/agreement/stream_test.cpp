@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "runtime/report/netcdf.h"
 #include "tests/support/run_program.h"
 
 namespace twincraft {
@@ -67,6 +68,7 @@ constexpr bool kSanitized = false;
 #endif
 
 TEST_F(ScsimFolder, HoldsTheFilesOfItsLastRunAlone) {
+  if (!has_netcdf()) GTEST_SKIP() << "this build has no netCDF";
   ASSERT_EQ(run(study, {"--netcdf"}).exit_code, 0);
   EXPECT_EQ(listing(),
             (Names{"0001", "0001/bsm.csv", "0001/bsm.nc", "0001/mujoco.csv", "0001/mujoco.nc",

@@ -63,6 +63,11 @@ const std::map<std::string, Rooms> kArrows = {
     {"runtime/report/page",
      {"compiler/ir", "runtime/compare", "runtime/engine", "runtime/report", "runtime/simulate",
       "runtime/study"}},
+    // Where both meet: a spec flown, in process.
+    {"runtime/delivery",
+     {"compiler", "compiler/diag", "compiler/files", "compiler/ir", "runtime/bsm",
+      "runtime/compare", "runtime/engine", "runtime/linear", "runtime/report",
+      "runtime/report/page", "runtime/simulate", "runtime/study"}},
 };
 
 std::string folder_of(const std::string& file) {

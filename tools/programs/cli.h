@@ -9,17 +9,10 @@
 
 #include "compiler/diag/diagnostics.h"
 #include "compiler/diag/terminal.h"
+#include "runtime/delivery/exit_code.h"
 #include "tools/programs/command_line.h"
 
 namespace twincraft {
-
-enum ExitCode {
-  kExitDone = 0,
-  kExitFindings = 1,
-  kExitUsage = 2,
-  kExitInputOutput = 3,
-  kExitFailure = 4,
-};
 
 /// A usage error on standard error. @return kExitUsage
 int report_usage(std::string_view program, const std::string& text, const std::string& hint);

@@ -7,17 +7,12 @@
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
 #include <thread>
 
 #include "compiler/diag/print.h"
 #include "compiler/files/output.h"
-#include "compiler/ir/number.h"
 #include "runtime/bsm/kernel.h"
-#include "tools/programs/estimate.h"
 #include "tools/programs/interrupt.h"
-#include "tools/programs/output_folder.h"
-#include "tools/programs/report_files.h"
 
 namespace twincraft {
 namespace {
@@ -74,15 +69,15 @@ std::string check_processor(const std::string& isa) {
   return fmt::format("this processor has no `{}`; it has {}", isa, has);
 }
 
-void check_members(const LoadedSpec& spec, const CommonOptions& options, Diagnostics& diagnostics) {
+Compilation compile_watched(const CommonOptions& options, const Wanted& wanted,
+                            Diagnostics& diagnostics) {
   ProgressBar bar(stderr);
   MemberProgress progress;
   if (shows_progress(options))
     progress = [&bar](std::size_t done, std::size_t planned) {
       bar.show("check", static_cast<double>(done) / static_cast<double>(planned));
     };
-  spec.check_members(diagnostics, progress);
-  bar.clear();
+  return compile_spec(options.request, wanted, diagnostics, progress);
 }
 
 }  // namespace
@@ -142,12 +137,7 @@ std::optional<int> settle_flags(std::string_view program, CommonOptions& options
 
 void complain(std::string_view text) { write_standard_error(fmt::format("scsim: {}\n", text)); }
 
-int print(std::string_view text) {
-  const std::string error = write_standard_output(text);
-  if (error.empty()) return kExitDone;
-  complain(error);
-  return kExitInputOutput;
-}
+int print(std::string_view text) { return settle(write_standard_output(text)); }
 
 int print_diagnostics(const Diagnostics& diagnostics, const CommonOptions& options) {
   if (options.diagnostics == "json") return print(to_json(diagnostics));  // safe on terminals too
@@ -157,13 +147,11 @@ int print_diagnostics(const Diagnostics& diagnostics, const CommonOptions& optio
   return kExitDone;
 }
 
-RunOptions watched_run(const CommonOptions& options, ProgressBar& bar) {
-  RunOptions run;
+void watch(RunOptions& run, const CommonOptions& options, ProgressBar& bar) {
   run.stop = &watch_for_interrupts();
   run.instructions = instructions_of(options.isa);
   if (shows_progress(options))
     run.progress = [&bar](std::string_view phase, double fraction) { bar.show(phase, fraction); };
-  return run;
 }
 
 int jobs_of(const CommonOptions& options) {
@@ -171,84 +159,22 @@ int jobs_of(const CommonOptions& options) {
   return options.jobs > 0 ? options.jobs : cores;
 }
 
-Provenance provenance_of(const CommonOptions& options) {
-  Provenance made = provenance();
-  made.instructions = bsm::name_of(instructions_of(options.isa));
-  return made;
-}
-
-Wanted wanted_by_run(const CommonOptions& options) {
-  if (options.folder.empty()) return {kMjcf};
-  return {kMjcf, kAssemblyJson, kResolved};
-}
-
 int compile_spec(const CommonOptions& options, const Wanted& wanted,
                  std::optional<CompiledSpec>& result) {
   Diagnostics diagnostics;
-  LoadResult loaded = load_spec(options.request, diagnostics);
-  if (!loaded.io_error.empty()) {
-    complain(loaded.io_error);
-    return kExitInputOutput;
+  Compilation made = compile_watched(options, wanted, diagnostics);
+  if (!made.io_error.empty()) {
+    complain(made.io_error);
+    return made.exit_code(diagnostics);
   }
-  std::optional<Bundle> bundle;
-  if (loaded.spec) bundle = loaded.spec->compile(wanted, diagnostics);
-  if (bundle) check_members(*loaded.spec, options, diagnostics);
   judge_warnings(options.warnings, diagnostics);
   if (const int code = print_diagnostics(diagnostics, options); code != kExitDone) return code;
-  if (loaded.bad_override) return kExitUsage;
-  if (!bundle || diagnostics.has_errors()) return kExitFindings;
-  result = CompiledSpec{*std::move(loaded.spec), *std::move(bundle)};
-  return kExitDone;
+  result = std::move(made.compiled);
+  return made.exit_code(diagnostics);
 }
 
-int check_memory(const CompiledSpec& compiled, double trajectories, const CommonOptions& options) {
-  const Model& model = compiled.bundle.model;
-  const double needed = trajectories * trajectory_bytes(model);
-  if (needed <= kMostMemory) return kExitDone;
-  Diagnostics diagnostics;
-  diagnostics
-      .error(
-          Code::kTooManySteps, compiled.spec.simulation_span("record"),
-          fmt::format("{:.3g} samples of {} trajectories, which this analysis keeps, take {}, "
-                      "more than {}",
-                      samples_of(model), trajectories, size_words(needed), size_words(kMostMemory)))
-      .with_hint(fmt::format("raise `simulation.record` to {} s or more",
-                             shortest(record_that_fits(model, trajectories))));
-  const int printed = print_diagnostics(diagnostics, options);
-  return printed != kExitDone ? printed : kExitFindings;
-}
-
-int check_disk(const Model& model, double bytes, const CommonOptions& options) {
-  if (options.folder.empty()) return kExitDone;
-  const std::string error = check_room(options.folder, bytes, free_bytes(options.folder),
-                                       std::max(model.simulation.record, model.simulation.step));
+int settle(const std::string& error) {
   if (error.empty()) return kExitDone;
-  complain(error);
-  return kExitInputOutput;
-}
-
-std::vector<std::string> report_files(const CommonOptions& options) {
-  if (options.folder.empty()) return {};
-  const std::filesystem::path folder = options.folder;
-  return {(folder / "report.json").string(), (folder / "report.html").string()};
-}
-
-int check_writable(const std::vector<std::string>& files) {
-  const std::string error = try_files(files);
-  if (error.empty()) return kExitDone;
-  complain(error);
-  return kExitInputOutput;
-}
-
-int write_report(const Report& report, const CommonOptions& options) {
-  if (options.folder.empty()) return kExitDone;
-  ReportFiles files(options.folder);
-  for (const ReportedMember& member : report.members) files.add(member);
-  const std::string error = files.write(report);
-  if (error.empty()) {
-    OutputFolder(options.folder).remove_leftovers();
-    return kExitDone;
-  }
   complain(error);
   return kExitInputOutput;
 }

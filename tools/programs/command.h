@@ -9,7 +9,8 @@
 
 #include "compiler/diag/diagnostics.h"
 #include "compiler/pipeline.h"
-#include "runtime/study/results.h"
+#include "runtime/delivery/compiled_spec.h"
+#include "runtime/study/member.h"
 #include "tools/programs/cli.h"
 #include "tools/programs/progress.h"
 
@@ -44,40 +45,17 @@ void complain(std::string_view text);
 int print(std::string_view text);
 int print_diagnostics(const Diagnostics& diagnostics, const CommonOptions& options);
 
-/// The flags of a run with these options; progress goes to `bar` if it is to be seen.
-RunOptions watched_run(const CommonOptions& options, ProgressBar& bar);
+/// What the flags say of every run: its instructions, and who watches it; a signal stops it, and
+/// progress goes to `bar` if it is to be seen.
+void watch(RunOptions& run, const CommonOptions& options, ProgressBar& bar);
 int jobs_of(const CommonOptions& options);
-/// Of a run with these options.
-Provenance provenance_of(const CommonOptions& options);
-
-/// A spec, and what it became.
-struct CompiledSpec {
-  LoadedSpec spec;
-  Bundle bundle;
-};
-
 /// Compile, and say what is wrong with the spec and its members. @return an exit code, 0 with a
 /// `result`
 int compile_spec(const CommonOptions& options, const Wanted& wanted,
                  std::optional<CompiledSpec>& result);
 
-/// The targets that a run needs: what MuJoCo loads, and with a report those whose digests it has.
-Wanted wanted_by_run(const CommonOptions& options);
-
-/// Refuses, at `simulation.record`, what needs more memory than is sensible.
-/// @param trajectories  that are kept at a time @return the exit code
-int check_memory(const CompiledSpec& compiled, double trajectories, const CommonOptions& options);
-/// Refuses files for which the disk has no room. @param bytes  that they take, or more
-int check_disk(const Model& model, double bytes, const CommonOptions& options);
-
-/// What the report will be called; nothing without -o.
-std::vector<std::string> report_files(const CommonOptions& options);
-
-/// Whether they could be written, said now rather than after a run of hours. @return the exit code
-int check_writable(const std::vector<std::string>& files);
-
-/// @return the exit code
-int write_report(const Report& report, const CommonOptions& options);
+/// Says what went wrong with files, if anything did. @return the exit code
+int settle(const std::string& error);
 
 /// Says on standard error what was written, unless `--quiet`. @param files  names in the folder
 void tell_written(const std::vector<std::string>& files, const CommonOptions& options);

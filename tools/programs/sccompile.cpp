@@ -15,8 +15,8 @@
 #include "compiler/emit/target.h"
 #include "compiler/files/output.h"
 #include "compiler/pipeline.h"
-#include "runtime/compare/proof.h"
-#include "runtime/linear/resolution.h"
+#include "runtime/delivery/compiled_spec.h"
+#include "runtime/delivery/spec_proof.h"
 #include "tools/programs/cli.h"
 #include "tools/programs/progress.h"
 
@@ -167,27 +167,19 @@ int write_results(const Bundle& bundle, const Options& options) {
   return kExitInputOutput;
 }
 
-/// Says what step the run would need, at the step that it has.
-void foresee(const LoadedSpec& spec, const Model& model, Diagnostics& diagnostics) {
-  const Resolution foreseen = foresee_resolution(model);
-  if (foreseen.resolved) return;
-  diagnostics.warning(Code::kUnresolvedStep, spec.simulation_span("step"),
-                      foreseen.reasons.front());
-}
-
 int check(const Bundle& bundle, const Options& options) {
   ProgressBar bar(stderr);
   const bool is_watched = ::isatty(STDERR_FILENO) != 0;
-  const ProofReport proof = prove(bundle, [&bar, is_watched](double done) {
+  const SpecProof proof = prove_spec(bundle, [&bar, is_watched](double done) {
     if (is_watched) bar.show("proof", done);
   });
   bar.clear();
   if (options.diagnostics == "text") {
-    if (const int code = print(to_text(proof)); code != kExitDone) return code;
+    if (const int code = print(proof.text()); code != kExitDone) return code;
   } else {
-    write_standard_error(to_text(proof));  // standard output is for one document
+    write_standard_error(proof.text());  // standard output is for one document
   }
-  return proof.pass() ? kExitDone : kExitFindings;
+  return proof.exit_code();
 }
 
 Wanted wanted_by(const Options& options) {
@@ -197,35 +189,23 @@ Wanted wanted_by(const Options& options) {
   return wanted;
 }
 
-/// Nothing when there were errors, in the spec or in the members of its study.
-std::optional<Bundle> compile(const LoadResult& loaded, const Options& options,
-                              Diagnostics& diagnostics) {
-  if (!loaded.spec) return std::nullopt;
-  std::optional<Bundle> bundle = loaded.spec->compile(wanted_by(options), diagnostics);
-  if (!bundle) return std::nullopt;
-  loaded.spec->check_members(diagnostics);
-  if (diagnostics.has_errors()) return std::nullopt;
-  if (options.check) foresee(*loaded.spec, bundle->model, diagnostics);
-  return bundle;
-}
-
 int run(const Options& options) {
   if (options.schema) return print(json_schema());
   if (options.reference) return print(reference_markdown());
   if (!options.explain.empty()) return explain_code("sccompile", options.explain);
 
   Diagnostics diagnostics;
-  const LoadResult loaded = load_spec(options.request, diagnostics);
-  if (!loaded.io_error.empty()) {
-    complain(loaded.io_error);
+  const Compilation made = compile_spec(options.request, wanted_by(options), diagnostics);
+  if (!made.io_error.empty()) {
+    complain(made.io_error);
     return kExitInputOutput;
   }
-  const std::optional<Bundle> bundle = compile(loaded, options, diagnostics);
+  if (made.compiled && options.check) foresee_step(*made.compiled, diagnostics);
   judge_warnings(options.warnings, diagnostics);
   if (const int code = report(diagnostics, options); code != kExitDone) return code;
-  if (loaded.bad_override) return kExitUsage;
-  if (!bundle || diagnostics.has_errors()) return kExitFindings;
-  return options.check ? check(*bundle, options) : write_results(*bundle, options);
+  if (const int code = made.exit_code(diagnostics); code != kExitDone) return code;
+  const Bundle& bundle = made.compiled->bundle;
+  return options.check ? check(bundle, options) : write_results(bundle, options);
 }
 
 int parse_and_run(int argc, char** argv) {

@@ -3,33 +3,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "runtime/compare/pairing.h"
+#include "runtime/study/replay.h"
 
 namespace twincraft {
-namespace {
-
-/// The samples that a member kept, as if it were flown again.
-void replay(const ReportedMember& member, PageSeries& series) {
-  AgreementMeter meter(metric_laws(member.bundle.model));
-  Pairing pairing([&](const Observation& a, const Observation& b) {
-    meter.take(a, b);
-    series.take_pair(a, b, meter.now());
-  });
-  const std::vector<EngineRun>& engines = member.result.engines;
-  const auto left = [&engines](std::size_t engine, std::size_t i) {
-    return i < engines[engine].trajectory.samples.size();
-  };
-  for (std::size_t i = 0; left(0, i) || left(1, i); ++i)
-    for (const std::size_t engine : {0U, 1U}) {
-      if (!left(engine, i)) continue;
-      const Trajectory& trajectory = engines[engine].trajectory;
-      series.take(engine, trajectory.samples[i], trajectory.books[i]);
-      pairing.add(engine, trajectory.samples[i]);
-    }
-}
-
-}  // namespace
-
 PageSeries::PageSeries(const Model& model)
     : histories_(model), frames_{Frames(model), Frames(model)} {}
 
@@ -50,7 +26,8 @@ nlohmann::ordered_json histories_json(const ReportedMember& member) {
 std::shared_ptr<const PageSeries> series_of(const ReportedMember& member) {
   if (member.series) return member.series;
   auto series = std::make_shared<PageSeries>(member.bundle.model);
-  replay(member, *series);
+  const std::vector<EngineRun>& engines = member.result.engines;
+  replay(member.bundle.model, {&engines.at(0).trajectory, &engines.at(1).trajectory}, *series);
   return series;
 }
 

@@ -1,5 +1,5 @@
 // See estimate.h. Tested by tests/agreement/estimate_test.cpp.
-#include "tools/programs/estimate.h"
+#include "runtime/delivery/estimate.h"
 
 #include <fmt/format.h>
 

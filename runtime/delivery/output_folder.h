@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -19,6 +21,10 @@ class OutputFolder {
 
   /// This run wrote a file of ours for a member.
   void wrote(std::size_t member, std::string_view name);
+
+  /// Every file that was written, member by member.
+  void for_each_written(
+      const std::function<void(std::size_t member, const std::string& name)>& visit) const;
 
   /// Removes files of our names that this run did not write: trajectories beside the report and in
   /// folders of members, which go with their last file. Whatever else lies there stays, and so does

@@ -1,5 +1,5 @@
 // See member_files.h. Tested by tests/agreement/scsim_test.cpp.
-#include "tools/programs/member_files.h"
+#include "runtime/delivery/member_files.h"
 
 #include <fmt/format.h>
 

@@ -8,11 +8,11 @@
 #include <string>
 
 #include "compiler/files/output.h"
+#include "runtime/delivery/output_folder.h"
 #include "runtime/report/csv.h"
 #include "runtime/report/netcdf.h"
 #include "runtime/report/page/page_series.h"
 #include "runtime/study/run_study.h"
-#include "tools/programs/output_folder.h"
 
 namespace twincraft {
 

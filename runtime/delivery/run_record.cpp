@@ -1,5 +1,5 @@
-// See outcome.h. Tested by tests/agreement/study_test.cpp.
-#include "tools/programs/outcome.h"
+// See run_record.h.
+#include "runtime/delivery/run_record.h"
 
 #include <fmt/format.h>
 
@@ -13,15 +13,16 @@ constexpr std::size_t kMostFailures = 100;  // that are told one by one
 
 }  // namespace
 
-Outcome::Outcome(const CommonOptions& options, std::optional<StudyPlan> study)
-    : report_{provenance_of(options), {}, std::move(study)}, output_{OutputFolder(options.folder)} {
-  if (!options.folder.empty()) files_ = std::make_unique<ReportFiles>(options.folder);
+RunRecord::RunRecord(Provenance provenance, std::optional<StudyPlan> study,
+                     const std::filesystem::path& folder)
+    : report_{std::move(provenance), {}, std::move(study)}, output_{OutputFolder(folder)} {
+  if (!folder.empty()) files_ = std::make_unique<ReportFiles>(folder);
   if (!report_.study) return;
   record_ = std::make_shared<StudyRecord>(report_.study->is_work_precision);
   report_.record = record_;
 }
 
-void Outcome::take(ReportedMember member) {
+void RunRecord::take(ReportedMember member) {
   if (files_) files_->add(member);
   if (record_) record_->add(member);
   note_failures(taken_, member.result);
@@ -30,12 +31,12 @@ void Outcome::take(ReportedMember member) {
   if (report_.members.size() < kKeptMembers) report_.members.push_back(std::move(member));
 }
 
-void Outcome::note(std::string failure, int code) {
+void RunRecord::note(std::string failure, ExitCode code) {
   if (failure_count_++ < kMostFailures) failures_.push_back(std::move(failure));
   worst_ = std::max(worst_, code);
 }
 
-void Outcome::note_failures(std::size_t index, const Member& member) {
+void RunRecord::note_failures(std::size_t index, const Member& member) {
   const std::optional<StudyPlan>& study = report_.study;
   const std::string which = study ? fmt::format("member {}: ", index) : "";
   if (member.refused)
@@ -47,24 +48,20 @@ void Outcome::note_failures(std::size_t index, const Member& member) {
       note(fmt::format("{}{} failed: {}", which, run.name, run.reason), kExitFailure);
 }
 
-int Outcome::complain_of_failures() const {
-  for (const std::string& failure : failures_) complain(failure);
+std::vector<std::string> RunRecord::failures() const {
+  std::vector<std::string> lines = failures_;
   if (failure_count_ > failures_.size())
-    complain(
+    lines.push_back(
         fmt::format("... and {} more failures, in report.json", failure_count_ - failures_.size()));
-  return worst_;
+  return lines;
 }
 
-int Outcome::write(const std::function<void(double)>& progress) {
-  if (!files_) return kExitDone;
-  const std::string error =
-      output_.error.empty() ? files_->write(report_, progress) : output_.error;
-  if (error.empty()) {
-    output_.folder.remove_leftovers();
-    return kExitDone;
-  }
-  complain(error);
-  return kExitInputOutput;
+std::string RunRecord::write(const std::function<void(double)>& progress) const {
+  if (!files_ || empty()) return {};
+  if (!output_.error.empty()) return output_.error;
+  std::string error = files_->write(report_, output_.folder.of_member(0), progress);
+  if (error.empty()) output_.folder.remove_leftovers();
+  return error;
 }
 
 }  // namespace twincraft

@@ -1,5 +1,5 @@
 // See output_folder.h. Tested by tests/agreement/study_test.cpp.
-#include "tools/programs/output_folder.h"
+#include "runtime/delivery/output_folder.h"
 
 #include <fmt/format.h>
 
@@ -72,6 +72,13 @@ void OutputFolder::wrote(std::size_t member, std::string_view name) {
 
 bool OutputFolder::has_written(std::size_t member, std::size_t file) const {
   return member < written_.size() && (written_[member] >> file & 1U) != 0;
+}
+
+void OutputFolder::for_each_written(
+    const std::function<void(std::size_t member, const std::string& name)>& visit) const {
+  for (std::size_t member = 0; member < written_.size(); ++member)
+    for (std::size_t file = 0; file < trajectories().size(); ++file)
+      if (has_written(member, file)) visit(member, trajectories().at(file));
 }
 
 void OutputFolder::clean(const fs::path& folder, std::size_t member) const {

@@ -1,5 +1,5 @@
 // Claims about what is known of a run before it starts.
-#include "tools/programs/estimate.h"
+#include "runtime/delivery/estimate.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
