@@ -141,7 +141,8 @@ Batch::~Batch() = default;
 
 double Batch::time() const { return groups_.front()->time(); }
 
-std::size_t Batch::rows_of(std::span<const double> rows, std::size_t width, const char* what) const {
+std::size_t Batch::rows_of(std::span<const double> rows, std::size_t width,
+                           const char* what) const {
   if (rows.size() != width && rows.size() != width * count_)
     refuse(fmt::format("{} of {} members are {} rows of {} numbers, or one, not {} numbers", what,
                        count_, count_, width, rows.size()));
@@ -180,8 +181,8 @@ void Batch::set_states(std::span<const double> rows) {
   for (std::size_t row = 0; row < given; ++row)
     (void)state_from(*model_, rows.subspan(row * width, width));
   for (std::size_t member = 0; member < count_; ++member)
-    groups_[group_of(member)]->set_state(
-        member % per_group_, rows.subspan(given == 1 ? 0 : member * width, width));
+    groups_[group_of(member)]->set_state(member % per_group_,
+                                         rows.subspan(given == 1 ? 0 : member * width, width));
 }
 
 void Batch::drive(std::span<const double> rows) {
@@ -214,9 +215,9 @@ void Batch::step(std::size_t count, const Poll& poll) {
     count -= round;
     if (count > 0 && poll && poll()) throw Fault(TC_INTERRUPTED, "interrupted");
     const double rounds = kRound / std::max(now() - start, 1e-9);
-    round = std::min(count, std::clamp<std::size_t>(static_cast<std::size_t>(
-                                                        static_cast<double>(round) * rounds),
-                                                    1, 4 * round));
+    round = std::min(
+        count, std::clamp<std::size_t>(
+                   static_cast<std::size_t>(static_cast<double>(round) * rounds), 1, 4 * round));
   }
 }
 

@@ -119,6 +119,11 @@ const char* tc_model_signal_unit(const tc_model* model, tc_signals which, size_t
   return list_of(*model, which).unit(index).c_str();
 }
 
+const char* tc_model_signal_meaning(const tc_model* model, tc_signals which, size_t index) {
+  if (index >= tc_model_count(model, which)) return nullptr;
+  return list_of(*model, which).meaning(index).c_str();
+}
+
 tc_status tc_model_find(tc_model* model, tc_signals which, const char* name, size_t* index,
                         size_t* count) {
   return inside(model, Use::kAsks, [&] {

@@ -21,8 +21,7 @@ void check_input(const CompiledModel& model, std::size_t input, std::size_t coun
 }
 
 double read_input(const CompiledModel& model, std::size_t input, const char* text) {
-  const Quantity quantity =
-      parse_quantity(text == nullptr ? "" : text, model.inputs().unit(input));
+  const Quantity quantity = parse_quantity(text == nullptr ? "" : text, model.inputs().unit(input));
   if (!quantity.error.empty())
     refuse(fmt::format("`{}`: {}{}", model.inputs().name(input), quantity.error,
                        quantity.hint.empty() ? "" : "; " + quantity.hint));
@@ -207,8 +206,8 @@ tc_status tc_simulation_step(tc_simulation* simulation, size_t count) {
   });
 }
 
-tc_status tc_simulation_run_until(tc_simulation* simulation, double time,
-                                  const tc_control* control, double* reached) {
+tc_status tc_simulation_run_until(tc_simulation* simulation, double time, const tc_control* control,
+                                  double* reached) {
   const tc_status status = inside(simulation, Use::kMoves, [&] {
     refuse_borrowed(*simulation);
     Simulation& flyer = *simulation->simulation;
@@ -228,9 +227,8 @@ tc_status tc_simulation_run_until(tc_simulation* simulation, double time,
 
 tc_status tc_simulation_snapshot(tc_simulation* simulation, void* bytes, size_t capacity,
                                  size_t* size) {
-  return inside(simulation, Use::kAsks, [&] {
-    hand_over(simulation->simulation->snapshot(), bytes, capacity, size);
-  });
+  return inside(simulation, Use::kAsks,
+                [&] { hand_over(simulation->simulation->snapshot(), bytes, capacity, size); });
 }
 
 tc_status tc_simulation_restore(tc_simulation* simulation, const void* bytes, size_t size) {

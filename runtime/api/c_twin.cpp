@@ -1,7 +1,6 @@
 // The C interface: twins. See include/twincraft.h.
-#include <nlohmann/json.hpp>
-
 #include <array>
+#include <nlohmann/json.hpp>
 
 #include "runtime/api/handles.h"
 #include "runtime/api/twin.h"
@@ -147,10 +146,9 @@ tc_status tc_twin_run_until(tc_twin* twin, double time, const tc_control* contro
                             double* reached) {
   const tc_status status = inside(twin, Use::kMoves, [&] {
     Twin& both = *twin->twin;
-    const Control how =
-        control_of(control, both.lead(), [&both](std::size_t input, double value) {
-          both.drive(input, {&value, 1});
-        });
+    const Control how = control_of(control, both.lead(), [&both](std::size_t input, double value) {
+      both.drive(input, {&value, 1});
+    });
     run(twin, time, how, control != nullptr);
   });
   if (reached != nullptr) *reached = tc_twin_time(twin);
@@ -191,8 +189,9 @@ tc_status tc_twin_snapshot(tc_twin* twin, void* bytes, size_t capacity, size_t* 
 }
 
 tc_status tc_twin_restore(tc_twin* twin, const void* bytes, size_t size) {
-  return inside(twin, Use::kMoves,
-                [&] { twin->twin->restore({static_cast<const char*>(bytes), size}); });
+  return inside(twin, Use::kMoves, [&] {
+    twin->twin->restore({static_cast<const char*>(bytes), size});
+  });
 }
 
 tc_status tc_twin_reset(tc_twin* twin) {

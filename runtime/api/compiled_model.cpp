@@ -9,20 +9,19 @@
 #include "compiler/analysis/configuration.h"
 #include "compiler/diag/print.h"
 #include "runtime/api/faults.h"
+#include "runtime/delivery/compiled_spec.h"
 #include "runtime/engine/observation.h"
 
 namespace twincraft::api {
 
 std::shared_ptr<const CompiledModel> CompiledModel::load(const CompileRequest& request,
                                                          Diagnostics& diagnostics) {
-  LoadResult loaded = load_spec(request, diagnostics);
-  if (!loaded.io_error.empty()) throw Fault(TC_FILE, loaded.io_error);
-  if (loaded.bad_override) refuse(to_text(diagnostics, {}));
-  std::optional<Bundle> bundle;
-  if (loaded.spec)
-    bundle = loaded.spec->compile({kMjcf, kAssemblyJson, kResolved}, diagnostics);
-  if (!bundle) throw Fault(TC_SPEC, to_text(diagnostics, {}));
-  return std::make_shared<CompiledModel>(*std::move(loaded.spec), *std::move(bundle));
+  Compilation made = compile_spec(request, wanted_by_run(true), diagnostics);
+  if (!made.io_error.empty()) throw Fault(TC_FILE, made.io_error);
+  if (made.bad_override) refuse(to_text(diagnostics, {}));
+  if (!made.compiled) throw Fault(TC_SPEC, to_text(diagnostics, {}));
+  return std::make_shared<CompiledModel>(std::move(made.compiled->spec),
+                                         std::move(made.compiled->bundle));
 }
 
 CompiledModel::CompiledModel(LoadedSpec spec, Bundle bundle)
@@ -36,8 +35,8 @@ CompiledModel::CompiledModel(LoadedSpec spec, Bundle bundle)
 
 MassProperties CompiledModel::mass_properties() const {
   const VehicleState& start = model().initial;
-  return system_properties(
-      model().assembly, configuration(model().assembly, start.joint_position, start.joint_rate));
+  return system_properties(model().assembly,
+                           configuration(model().assembly, start.joint_position, start.joint_rate));
 }
 
 void read_signals(const std::vector<OutputSignal>& signals, const Observation& seen,
@@ -52,7 +51,8 @@ VehicleState state_from(const CompiledModel& model, std::span<const double> numb
     refuse(fmt::format("a state of `{}` has {} numbers, not {}", model.model().name,
                        model.states().size(), numbers.size()));
   for (std::size_t i = 0; i < numbers.size(); ++i)
-    if (!std::isfinite(numbers[i])) refuse(fmt::format("`{}` is not finite", model.states().name(i)));
+    if (!std::isfinite(numbers[i]))
+      refuse(fmt::format("`{}` is not finite", model.states().name(i)));
   VehicleState state = model.model().initial;
   std::size_t next = 0;
   for (const OutputSignal& signal : model.state_signals()) {

@@ -13,6 +13,7 @@ void SignalList::add(const Signal& signal) {
   for (std::size_t i = 0; i < signal.size(); ++i) {
     names_.push_back(signal.component(i));
     units_.push_back(signal.unit);
+    meanings_.push_back(signal.meaning);
     vectors_.push_back(signal.axes.empty() ? "" : signal.name);
   }
 }

@@ -1,4 +1,5 @@
-// The numbers of a model's inputs, outputs or states by name. Tested by tests/api/simulation_test.cpp.
+// The numbers of a model's inputs, outputs or states by name. Tested by
+// tests/api/simulation_test.cpp.
 #pragma once
 
 #include <cstddef>
@@ -21,6 +22,7 @@ class SignalList {
   std::size_t size() const { return names_.size(); }
   const std::string& name(std::size_t i) const { return names_[i]; }
   const std::string& unit(std::size_t i) const { return units_[i]; }
+  const std::string& meaning(std::size_t i) const { return meanings_[i]; }
 
   /// Numbers that stand together: one, or those of a vector.
   struct Range {
@@ -34,7 +36,7 @@ class SignalList {
   void add(const Signal& signal);
 
   std::string kind_;
-  std::vector<std::string> names_, units_;
+  std::vector<std::string> names_, units_, meanings_;
   std::vector<std::string> vectors_;  // of each number, the vector's name; empty: none
 };
 

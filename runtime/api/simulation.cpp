@@ -95,7 +95,9 @@ void Simulation::advance_to(double time, const Poll& poll) {
 
 std::string Simulation::snapshot() const { return seal(flight_->snapshot(), *model_, kind_); }
 
-void Simulation::restore(std::string_view bytes) { go_on_from(unseal(bytes, *model_, kind_, start_)); }
+void Simulation::restore(std::string_view bytes) {
+  go_on_from(unseal(bytes, *model_, kind_, start_));
+}
 
 void Simulation::reset() { go_on_from(start_); }
 

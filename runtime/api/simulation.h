@@ -24,9 +24,9 @@ using Poll = std::function<bool()>;
 
 /// What happens at every tick of run_until().
 struct Control {
-  double every = 0.0;                            // [s]; 0: every step end
-  std::function<bool(double time)> stop = {};    // true: enough
-  std::function<void(double time)> control = {}; // sets inputs; the end left out
+  double every = 0.0;                             // [s]; 0: every step end
+  std::function<bool(double time)> stop = {};     // true: enough
+  std::function<void(double time)> control = {};  // sets inputs; the end left out
 };
 
 class Simulation {
@@ -46,8 +46,12 @@ class Simulation {
   /// As it is now; stays until it moves.
   const Observation& observe();
   /// @pre sizes fit, here and below
-  void read_state(std::span<double> numbers) { read_signals(model_->state_signals(), observe(), numbers); }
-  void read_outputs(std::span<double> numbers) { read_signals(model_->output_signals(), observe(), numbers); }
+  void read_state(std::span<double> numbers) {
+    read_signals(model_->state_signals(), observe(), numbers);
+  }
+  void read_outputs(std::span<double> numbers) {
+    read_signals(model_->output_signals(), observe(), numbers);
+  }
   void read_inputs(std::span<double> numbers) const;
   void set_state(std::span<const double> numbers);
 

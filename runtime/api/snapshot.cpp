@@ -82,7 +82,7 @@ class Reader {
   }
   void operator()(Eigen::VectorXd& values) { list(values); }
 
-  bool is_at_end() const { return bytes_.empty(); }
+  std::string_view rest() const { return bytes_; }
 
  private:
   std::string_view take(std::size_t count) {
@@ -151,10 +151,9 @@ bool have_one_size(const Flight::Snapshot& a, const Flight::Snapshot& b) {
   const auto& y = b.inputs;
   return a.solution.value.size() == b.solution.value.size() &&
          a.solution.carry.size() == b.solution.carry.size() &&
-         x.inputs.u.size() == y.inputs.u.size() &&
-         x.inputs.tanks.size() == y.inputs.tanks.size() && x.next.size() == y.next.size() &&
-         x.is_driven.size() == y.is_driven.size() && x.driven.size() == y.driven.size() &&
-         x.is_empty.size() == y.is_empty.size();
+         x.inputs.u.size() == y.inputs.u.size() && x.inputs.tanks.size() == y.inputs.tanks.size() &&
+         x.next.size() == y.next.size() && x.is_driven.size() == y.is_driven.size() &&
+         x.driven.size() == y.driven.size() && x.is_empty.size() == y.is_empty.size();
 }
 
 }  // namespace
@@ -177,11 +176,10 @@ Flight::Snapshot unseal(std::string_view bytes, const CompiledModel& model, Engi
                         const Flight::Snapshot& like) {
   if (!bytes.starts_with(kMagic)) throw Fault(TC_SNAPSHOT, "these bytes are no snapshot");
   bytes.remove_prefix(kMagic.size());
-  std::uint64_t sum = 0;
-  Reader(bytes)(sum);
-  bytes.remove_prefix(sizeof sum);
-  if (sum != sum_of(bytes)) refuse_damaged();
   Reader reader(bytes);
+  std::uint64_t sum = 0;
+  reader(sum);
+  if (sum != sum_of(reader.rest())) refuse_damaged();
   const Origin wanted(model, engine);
   Origin found = wanted;
   reader(found.program);
@@ -194,7 +192,7 @@ Flight::Snapshot unseal(std::string_view bytes, const CompiledModel& model, Engi
   check(found.digest, wanted.digest, "model");
   Flight::Snapshot snapshot;
   for_each_part(reader, snapshot);
-  if (!reader.is_at_end() || !have_one_size(snapshot, like)) refuse_damaged();
+  if (!reader.rest().empty() || !have_one_size(snapshot, like)) refuse_damaged();
   return snapshot;
 }
 

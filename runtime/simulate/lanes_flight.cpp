@@ -92,9 +92,9 @@ void LanesFlight::find_failures() {
     const auto bad = std::ranges::find_if_not(state, [](double x) { return std::isfinite(x); });
     if (bad == state.end()) continue;
     const auto at = static_cast<std::size_t>(bad - state.begin());
-    failures_[lane] = fmt::format("`{}` is not finite at t = {} s",
-                                  component_names(states_of(model_, layout_.chart)).at(at),
-                                  shortest(time_));
+    failures_[lane] =
+        fmt::format("`{}` is not finite at t = {} s",
+                    component_names(states_of(model_, layout_.chart)).at(at), shortest(time_));
     std::ranges::fill(state, std::numeric_limits<double>::quiet_NaN());
     for (std::size_t i = 0; i < state.size(); ++i) stepper_.state()[i * lanes() + lane] = state[i];
   }
@@ -121,9 +121,7 @@ void LanesFlight::drive(std::size_t lane, std::size_t port, double value) {
   feeds_[lane].drive(port, value, time_);
 }
 
-void LanesFlight::release(std::size_t lane, std::size_t port) {
-  feeds_[lane].release(port, time_);
-}
+void LanesFlight::release(std::size_t lane, std::size_t port) { feeds_[lane].release(port, time_); }
 
 void LanesFlight::hold() {
   std::vector<const bsm::HeldInputs*> held;

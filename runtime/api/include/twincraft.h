@@ -9,8 +9,8 @@
  *
  * Faults. A function that can fail returns a tc_status. On a fault the handle is as it was before,
  * and tc_*_error() of the handle says what happened, with the near miss where a name is unknown.
- * A function that makes a handle gives one also when it fails, unless memory ran out, so that it can
- * be asked; such a handle can only be asked and freed: everything else returns TC_USAGE.
+ * A function that makes a handle gives one also when it fails, unless memory ran out, so that it
+ * can be asked; such a handle can only be asked and freed: everything else returns TC_USAGE.
  *
  * Threads. A model may be used by any number of threads at once, but for the texts of its faults.
  * Another handle that is in use by one thread refuses another's call with TC_BUSY. The library has
@@ -46,15 +46,15 @@ TC_API const char* tc_version(void);
 /* The first five are the exit codes of the programs. */
 typedef enum tc_status {
   TC_OK = 0,
-  TC_SPEC = 1,        /* the spec has errors: tc_model_diagnostics() */
-  TC_USAGE = 2,       /* an unknown name, a value that is not finite or of another size or unit */
-  TC_FILE = 3,        /* cannot be read or written */
-  TC_NUMERICAL = 4,   /* the motion is no longer finite: tc_simulation_failure() */
-  TC_SNAPSHOT = 5,    /* bytes of another vehicle, engine or version, or damaged */
-  TC_BUSY = 6,        /* in use by another thread */
+  TC_SPEC = 1,      /* the spec has errors: tc_model_diagnostics() */
+  TC_USAGE = 2,     /* an unknown name, a value that is not finite or of another size or unit */
+  TC_FILE = 3,      /* cannot be read or written */
+  TC_NUMERICAL = 4, /* the motion is no longer finite: tc_simulation_failure() */
+  TC_SNAPSHOT = 5,  /* bytes of another vehicle, engine or version, or damaged */
+  TC_BUSY = 6,      /* in use by another thread */
   TC_MEMORY = 7,
-  TC_INTERNAL = 8,    /* a bug of the library */
-  TC_INTERRUPTED = 9  /* by tc_poll */
+  TC_INTERNAL = 8,   /* a bug of the library */
+  TC_INTERRUPTED = 9 /* by tc_poll */
 } tc_status;
 
 /* Asked now and then, at the end of a step, from the thread that called the library; not 0: end
@@ -71,7 +71,7 @@ typedef struct tc_load_options {
   size_t size;            /* sizeof(tc_load_options) */
   const char* const* set; /* `PATH=VALUE`, as the programs' --set */
   size_t set_count;
-  const char* name;       /* what diagnostics call a text; NULL: `<string>` */
+  const char* name; /* what diagnostics call a text; NULL: `<string>` */
 } tc_load_options;
 
 /* Compile a file. `options` may be NULL. TC_SPEC, TC_USAGE (a `set` that is no PATH=VALUE),
@@ -87,11 +87,11 @@ TC_API const char* tc_model_error(const tc_model* model);
 TC_API const char* tc_model_diagnostics(const tc_model* model);
 
 typedef enum tc_text {
-  TC_NAME = 0,    /* the spec's name */
-  TC_DIGEST = 1,  /* SHA-256 of TC_RESOLVED, hexadecimal */
-  TC_MJCF = 2,    /* NAME.xml; empty where MuJoCo cannot load it */
-  TC_ASSEMBLY = 3,/* NAME.bsm.json */
-  TC_RESOLVED = 4 /* NAME.resolved.yaml: it compiles to the same model, without other files */
+  TC_NAME = 0,     /* the spec's name */
+  TC_DIGEST = 1,   /* SHA-256 of TC_RESOLVED, hexadecimal */
+  TC_MJCF = 2,     /* NAME.xml; empty where MuJoCo cannot load it */
+  TC_ASSEMBLY = 3, /* NAME.bsm.json */
+  TC_RESOLVED = 4  /* NAME.resolved.yaml: it compiles to the same model, without other files */
 } tc_text;
 /* `length` may be NULL. */
 TC_API const char* tc_model_text(const tc_model* model, tc_text which, size_t* length);
@@ -105,6 +105,8 @@ TC_API size_t tc_model_count(const tc_model* model, tc_signals which);
 /* NULL beyond the last. */
 TC_API const char* tc_model_signal_name(const tc_model* model, tc_signals which, size_t index);
 TC_API const char* tc_model_signal_unit(const tc_model* model, tc_signals which, size_t index);
+/* In words, of the signal that the number is of: `hub rate relative to inertial axes, hub axes`. */
+TC_API const char* tc_model_signal_meaning(const tc_model* model, tc_signals which, size_t index);
 /* The index of a name, or of the first number of a vector's name, and how many numbers it has;
  * `count` may be NULL. TC_USAGE. */
 TC_API tc_status tc_model_find(tc_model* model, tc_signals which, const char* name, size_t* index,
