@@ -112,6 +112,7 @@ std::string AttributionRun::text(bool colour) const {
 std::string AttributionRun::json() const { return report_json(report_); }
 
 std::string AttributionRun::save(const std::string& folder) const {
+  if (folder.empty()) return kNoFolder;
   if (std::string error = try_files(report_paths(folder)); !error.empty()) return error;
   return write_report(report_, OutputFolder(folder));
 }

@@ -39,6 +39,9 @@ class ReportFiles {
   std::size_t size_ = 0;  // [bytes] of all members
 };
 
+/// Why nothing can be written into a folder without a name: it is not the current one.
+inline constexpr const char* kNoFolder = "no folder is named: its name is empty";
+
 /// What they are called in a folder; nothing in none.
 std::vector<std::string> report_paths(const std::string& folder);
 

@@ -188,6 +188,7 @@ const Trajectory& SpecRun::trajectory(EngineKind engine) const {
 
 std::string SpecRun::save(const std::string& folder) const {
   if (empty()) return "nothing to write: the run was interrupted before its first member";
+  if (folder.empty()) return kNoFolder;
   if (std::string error = try_files(first_paths(folder)); !error.empty()) return error;
   return report().study ? save_study(folder) : save_single(folder);
 }

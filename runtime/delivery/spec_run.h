@@ -43,7 +43,8 @@ class SpecRun {
   /// It was stopped before its first member had been flown: there is no report.
   bool empty() const;
   std::size_t members() const;  // that were flown
-  /// @pre not empty(); so do text() and json()
+  /// Of its samples the last alone; trajectory() has them. @pre not empty(), as of text() and
+  /// json()
   const Report& report() const;
   Verdict verdict() const;
   /// What scsim exits with; kExitInterrupted for any signal.

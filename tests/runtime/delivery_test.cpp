@@ -180,6 +180,11 @@ TEST_F(Delivery, SaysWhyItCannotSaveInTheWordsOfTheProgram) {
   EXPECT_EQ("scsim: " + flown(kQuickstart, kept()).save(at("file")) + "\n", program.err);
 }
 
+TEST_F(Delivery, SavesNothingIntoAFolderWithoutAName) {
+  EXPECT_THAT(flown(kQuickstart, kept()).save(""), HasSubstr("no folder is named"));
+  EXPECT_FALSE(fs::exists("report.json"));
+}
+
 TEST_F(Delivery, LeavesNoTemporaryFolderAndPrintsNothing) {
   ASSERT_EQ(::setenv("TMPDIR", folder.path().c_str(), 1), 0);
   const std::string spec = folder.write("study.yaml", kStudy);
@@ -265,9 +270,9 @@ TEST_F(Delivery, SavesNetcdfWhereItWasAskedFor) {
 }
 
 TEST_F(Delivery, RefusesToKeepWhatMemoryDoesNotHold) {
-  const CompiledSpec spec =
-      compiled(kQuickstart, {kMjcf},
-               {"simulation.step=0.1 ms", "simulation.record=0.1 ms", "simulation.duration=1000 s"});
+  const CompiledSpec spec = compiled(
+      kQuickstart, {kMjcf},
+      {"simulation.step=0.1 ms", "simulation.record=0.1 ms", "simulation.duration=1000 s"});
   Diagnostics diagnostics;
   EXPECT_FALSE(check_memory(spec, kept(), diagnostics));
   ASSERT_THAT(diagnostics.all(), SizeIs(1));
