@@ -29,17 +29,18 @@ class BsmEngine final : public Engine {
         initial_(model.initial),
         loads_(model.loads),
         propellant_(model.tanks),
-        shares_(propellant_.shares(0.0)),
         forces_(model, model.gravity.bsm, elements_of(model.assembly), FieldFrame::kFalling),
         layout_{model.engines.attitude, static_cast<int>(model.assembly.links.size()) - 1,
                 static_cast<int>(model.assembly.rotors.size())},
         held_(HeldInputs::none(model.assembly)),
-        plan_(make_plan(model.assembly, model.engines.attitude, model.gravity, model.loads,
-                        model.engines.chains, model.forces)),
-        kernel_(make_kernel(plan_, set)),
-        link_forces_(plan_.forces, inputs_at(model, 0.0)),
-        motion_(at_rest(plan_.tree)),
-        wrenches_(plan_.tree.links.size()) {
+        plan_(std::make_shared<const Plan>(make_plan(model.assembly, model.engines.attitude,
+                                                     model.gravity, model.loads,
+                                                     model.engines.chains, model.forces))),
+        kernel_(make_kernel(*plan_, set)),
+        link_forces_(plan_->forces, inputs_at(model, 0.0)),
+        tree_(plan_->tree),
+        motion_(at_rest(tree_)),
+        wrenches_(tree_.links.size()) {
     BsmEngine::hold(inputs_at(model, 0.0));
   }
 
@@ -53,16 +54,13 @@ class BsmEngine final : public Engine {
     forces_.hold(inputs);
     propellant_.hold(inputs);
     link_forces_.hold(inputs);
-    const Plan* plan = &plan_;
     const HeldInputs* held = &held_;
-    kernel_->hold({&plan, 1}, {&held, 1});
+    kernel_->hold({&held, 1});
     drained_to_ = std::numeric_limits<double>::quiet_NaN();
-    drain(inputs.since);
   }
 
   void derivative(double time, std::span<const double> state, std::span<double> rate,
                   BookRates* books) override {
-    drain(time);
     if (books != nullptr) return evaluate_and_book(time, state, rate, *books);
     kernel_->derivative(time, state.data(), rate.data());
   }
@@ -70,20 +68,21 @@ class BsmEngine final : public Engine {
   void finish_step(std::span<double> state) override { kernel_->finish_step(state.data()); }
 
   void observe(double time, std::span<const double> state, Observation& seen) override {
-    drain_all(time);
+    drain(time);
     const State x = read(state);
     assign(x, seen);
     seen.time = time;
-    move_links(plan_.tree, x.joint_position, x.joint_rate, x.omega_BN_B, motion_);
-    fill_books(sum_up(motion_, assembly_, shares_, x.wheel_rate), x.dcm_NB, seen);
-    seen.springs = spring_energy(plan_.tree, x.joint_position);
+    move_links(tree_, x.joint_position, x.joint_rate, x.omega_BN_B, motion_);
+    fill_books(sum_up(motion_, assembly_, propellant_.shares(time), x.wheel_rate), x.dcm_NB, seen);
+    seen.springs = spring_energy(tree_, x.joint_position);
     seen.potential = seen.springs + forces_.potential(x.r_BN_B(), motion_.poses);
   }
 
   Eigen::MatrixXd mass_matrix(std::span<const double> state) override {
+    drain(held_.inputs.since);
     const State x = read(state);
-    return dense_mass_matrix(
-        plan_.tree, motion_of(plan_.tree, x.joint_position, x.joint_rate, x.omega_BN_B), x.dcm_NB);
+    return dense_mass_matrix(tree_, motion_of(tree_, x.joint_position, x.joint_rate, x.omega_BN_B),
+                             x.dcm_NB);
   }
 
   HeldMachine held() const override {
@@ -125,18 +124,17 @@ class BsmEngine final : public Engine {
   }
 
   BookRates book_rates(double time, std::span<const double> state) {
-    drain_all(time);
+    drain(time);
     const State x = read(state);
-    const double inner_power =
-        joint_power(plan_.tree, x.joint_position, x.joint_rate, held_.effort) +
-        motor_power(x.wheel_rate, held_.motor_torque);
+    const double inner_power = joint_power(tree_, x.joint_position, x.joint_rate, held_.effort) +
+                               motor_power(x.wheel_rate, held_.motor_torque);
     BookRates rates{.power = inner_power, .own_power = inner_power};
     if (!acts() && !forces_.falls_as_a_whole() && propellant_.is_idle()) {
-      rates.force_N = plan_.mass() * forces_.fall(x.r_BN_N, x.dcm_NB, motion_.poses);
+      rates.force_N = plan_->mass() * forces_.fall(x.r_BN_N, x.dcm_NB, motion_.poses);
       return rates;
     }
-    move_links(plan_.tree, x.joint_position, x.joint_rate, x.omega_BN_B, motion_);
-    const Center center = center_of(plan_.tree, motion_);
+    move_links(tree_, x.joint_position, x.joint_rate, x.omega_BN_B, motion_);
+    const Center center = center_of(tree_, motion_);
     rates.force_N = center.mass * forces_.fall(x.r_BN_N, x.dcm_NB, motion_.poses);
     if (acts()) add_forces(time, x, center, rates);
     if (!propellant_.is_idle()) add_leaving(x, center, rates);
@@ -174,7 +172,7 @@ class BsmEngine final : public Engine {
   void add_leaving(const State& x, const Center& center, BookRates& rates) const {
     const std::span<const double> share_rates = propellant_.share_rates();
     const Vector3d v_BN_B = x.v_BN_B();
-    const Leaving leaving = sum_up_leaving(motion_, plan_.tree, share_rates, center);
+    const Leaving leaving = sum_up_leaving(motion_, tree_, share_rates, center);
     rates.power += leaving.kinetic + leaving.momentum_B.dot(v_BN_B) +
                    0.5 * leaving.mass * v_BN_B.squaredNorm() +
                    forces_.potential_rate(x.r_BN_B(), motion_.poses, share_rates);
@@ -189,35 +187,29 @@ class BsmEngine final : public Engine {
     return {x, x.q_BN.toRotationMatrix()};
   }
 
-  /// What depends on mass follows the tanks: in a step the kernel alone, else all.
+  /// Let the masses of observations and books be those that the tanks leave; the kernel has its
+  /// own.
   void drain(double time) {
-    if (!propellant_.is_idle() && time != drained_to_) drain_to(time);
-  }
-  [[gnu::noinline]] void drain_to(double time) {
+    if (propellant_.is_idle() || time == drained_to_) return;
     drained_to_ = time;
-    shares_ = propellant_.shares(time);
-    plan_.set_shares(shares_);
-    const Plan* plan = &plan_;
-    kernel_->set_masses({&plan, 1});
-  }
-  void drain_all(double time) {
-    drain(time);
-    if (!propellant_.is_idle()) forces_.set_shares(shares_);
+    const std::span<const double> shares = propellant_.shares(time);
+    set_shares(tree_, shares);
+    forces_.set_shares(shares);
   }
 
   Assembly assembly_;
   VehicleState initial_;
   std::vector<Load> loads_;
   PropellantLedger propellant_;
-  std::span<const double> shares_;
-  double drained_to_ = 0.0;  // [s] the time the kernel's masses are of; NaN: of none
   ForceModel forces_;
   StateLayout layout_;
   HeldInputs held_;
-  Plan plan_;
+  std::shared_ptr<const Plan> plan_;
   std::unique_ptr<Kernel> kernel_;
-  LinkForces link_forces_;  // for the books; the kernel has its own
-  // For observations and books.
+  // For observations and books; the kernel has its own forces and masses.
+  LinkForces link_forces_;
+  Tree tree_;                // with the masses at drained_to_
+  double drained_to_ = 0.0;  // [s] NaN: at no time
   Motion motion_;
   std::vector<Wrench> wrenches_;
 };

@@ -30,13 +30,10 @@ struct Pulled {
   Vec<S> r_EL;
   Sym<S> I;  // about its own centre
 
-  void set(std::size_t l, const ElementNow& from) {
-    set_lane(r_EL, l, from.full.r_EL_L);
-    set_mass(l, from);
-  }
-  void set_mass(std::size_t l, const ElementNow& from) {
-    set_lane(mass, l, from.mass());
-    set_lane(I, l, from.I_PntE_L());
+  void set(std::size_t l, const MassElement& from) {
+    set_lane(mass, l, from.mass);
+    set_lane(r_EL, l, from.r_EL_L);
+    set_lane(I, l, from.I_PntE_L);
   }
 };
 

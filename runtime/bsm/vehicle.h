@@ -21,14 +21,14 @@ class Vehicle {
   using Plans = std::span<const Plan* const>;  // one per lane of H, alike
   using Inputs = std::span<const HeldInputs* const>;
 
-  explicit Vehicle(Plans plans) : plan_(*plans[0]) {
+  explicit Vehicle(Plans plans) : plan_(*plans[0]), tanks_(plans[0]->tree.tanks) {
     const int omega = Layout::kAttitude + (plan_.chart == AttitudeChart::kMrp ? 3 : 4);
     const int joint = omega + 3;
     layout_ = {omega, joint, joint + plan_.joints(), joint + 2 * plan_.joints()};
     elements_.resize(plan_.hub.elements.size());
     rotors_.resize(plan_.hub.rotors.size());
     for (std::size_t l = 0; l < plans.size(); ++l) set_hub(l, *plans[l]);
-    set_hub_mass(plans);
+    set_hub_matrices();
     group_limbs(plans);
     is_rigid_ = plan_.limbs.empty() && !plan_.tree.links.data()->drains;
     if (is_rigid_) factors_ = HubFactors(hub_);
@@ -37,54 +37,38 @@ class Vehicle {
     list_forces(plans);
   }
 
-  void set_masses(Plans plans) {
-    if (plan_.tree.links.data()->drains) {
-      set_hub_mass(plans);
-      for (std::size_t l = 0; l < plans.size(); ++l) {
-        for (std::size_t e = 0; e < elements_.size(); ++e) {
-          elements_[e].set_mass(l, plans[l]->hub.elements.data()[e]);
-        }
-      }
-    }
-    for_each_group([&plans](auto& group) {
-      LanesOf lanes(group.limbs, plans);
-      group.limb.set_masses(lanes.limbs, lanes.plans);
-    });
-  }
-
-  void hold(Plans plans, Inputs held) {
+  void hold(Inputs held) {
     acts_at_center_ = false;
-    for (std::size_t l = 0; l < plans.size(); ++l) {
+    for (std::size_t l = 0; l < kLanes<H>; ++l) {
       set_lane(held_.force, l, *held[l]->force_L.data());
       set_lane(held_.torque, l, *held[l]->torque_L.data());
       set_lane(held_at_center_, l, *held[l]->force_at_center_L.data());
       acts_at_center_ = acts_at_center_ || held[l]->acts_at_center;
       for (std::size_t k = 0; k < rotors_.size(); ++k) {
-        rotors_[k].hold(l, held[l]->motor_torque.data()[plans[l]->hub.rotors.data()[k]]);
+        rotors_[k].hold(l, held[l]->motor_torque.data()[plans_[l]->hub.rotors.data()[k]]);
       }
-      forces_.hold(l, plans[l]->forces, held[l]->inputs);
+      forces_.hold(l, plans_[l]->forces, held[l]->inputs);
+      tanks_.hold(l, held[l]->inputs);
     }
     turns_alone_ = is_rigid_ && !has_elements_ && !acts_at_center_ && places_.empty();
-    for (std::size_t l = 0; l < plans.size(); ++l) {
+    for (std::size_t l = 0; l < kLanes<H>; ++l) {
       turns_alone_ = turns_alone_ && held[l]->force_L.data()->isZero(0.0) &&
-                     plans[l]->tree.links.data()->first_moment.isZero(0.0);
+                     plans_[l]->tree.links.data()->first_moment.isZero(0.0);
     }
     motor_torque_ = {};
     for (const RotorOn<H, H>& rotor : rotors_) motor_torque_ += rotor.motor_torque * rotor.axis_L;
-    for_each_group([&plans, &held](auto& group) {
+    for_each_group([this, &held](auto& group) {
       for (std::size_t l = 0; l < kLanes<S>; ++l) {
         const std::size_t p = l / kLimbs<H, S>;
-        group.limb.hold(l, limb_of(group, l, *plans[p]), *held[p]);
+        group.limb.hold(l, limb_of(group, l, *plans_[p]), *held[p]);
       }
     });
+    if (plan_.tree.tanks > 0) drain(held[0]->inputs.since);
   }
 
   void derivative(double time, const double* state, double* rate) {
-    if (plan_.chart == AttitudeChart::kMrp) {
-      derivative_in<Mrp<H>>(time, state, rate);
-    } else {
-      derivative_in<Quaternion<H>>(time, state, rate);
-    }
+    if (tanks_.flow()) return derivative_draining(time, state, rate);
+    derivative_steady(time, state, rate);
   }
 
   void finish_step(double* state) const {
@@ -102,6 +86,19 @@ class Vehicle {
   const Law<H>& last_hub_law() const { return hub_; }
 
  private:
+  void derivative_steady(double time, const double* state, double* rate) {
+    if (plan_.chart == AttitudeChart::kMrp) {
+      derivative_in<Mrp<H>>(time, state, rate);
+    } else {
+      derivative_in<Quaternion<H>>(time, state, rate);
+    }
+  }
+  // Apart, so that a vehicle whose tanks stay as they are pays one test.
+  [[gnu::noinline]] void derivative_draining(double time, const double* state, double* rate) {
+    drain(time);
+    derivative_steady(time, state, rate);
+  }
+
   /// Like limbs, side by side.
   template <class Of>
   struct Group {
@@ -162,7 +159,10 @@ class Vehicle {
   static Vec<S> spread(const Vec<H>& v) { return {S(v.x), S(v.y), S(v.z)}; }
 
   void set_hub(std::size_t l, const Plan& plan) {
+    plans_[l] = &plan;
     set_lane(mu_, l, plan.mu);
+    mass_.set(l, *plan.tree.links.data());
+    draining_.set(l, plan, plan.hub);
     for (std::size_t e = 0; e < elements_.size(); ++e) {
       elements_[e].set(l, plan.hub.elements.data()[e]);
     }
@@ -338,11 +338,15 @@ class Vehicle {
     return spin;
   }
 
-  void set_hub_mass(Plans plans) {
-    typename LinkMass<H>::Constants of{};
-    for (std::size_t l = 0; l < plans.size(); ++l) of[l] = plans[l]->tree.links.data();
-    mass_.set(of);
-    set_hub_matrices();
+  /// Let masses be those that the tanks leave at `time` [s].
+  void drain(double time) {
+    tanks_.move_to(H(time));
+    if (draining_.drains()) {
+      mass_ = draining_.mass(tanks_);
+      draining_.put_elements(tanks_, elements_);
+      set_hub_matrices();
+    }
+    for_each_group([this](auto& group) { group.limb.drain(tanks_); });
   }
 
   /// What of the hub's own law does not change with its motion.
@@ -439,9 +443,12 @@ class Vehicle {
   }
 
   const Plan& plan_;  // of lane 0, for what all share
+  std::array<const Plan*, kLanes<H>> plans_{};
+  Tanks<H> tanks_;
   Layout layout_;
   H mu_{};
   LinkMass<H> mass_;
+  LinkDrain<H, H> draining_;
   std::vector<Pulled<H>> elements_;
   std::vector<RotorOn<H, H>> rotors_;
   Pull<H> held_;

@@ -116,6 +116,7 @@ class MujocoEngine final : public Engine {
   PassiveJoints passive_;
   PropellantLedger propellant_;
   double drained_to_ = 0.0;  // [s] the time the masses are of; NaN: of none
+  double held_since_ = 0.0;  // [s]
   DrainingBodies draining_;
   WrenchProjector projector_;
   ForceModel forces_;
@@ -166,7 +167,7 @@ void MujocoEngine::hold(const Inputs& inputs) {
   propellant_.hold(inputs);
   link_forces_.hold(inputs);
   drained_to_ = std::numeric_limits<double>::quiet_NaN();
-  drain(inputs.since);
+  held_since_ = inputs.since;
 }
 
 void MujocoEngine::drain(double time) {
@@ -372,6 +373,7 @@ std::vector<int> MujocoEngine::dof_order() const {
 }
 
 Eigen::MatrixXd MujocoEngine::mass_matrix(std::span<const double> state) {
+  drain(held_since_);
   move_to(state);
   mj_crb(model_.get(), data_.get());
   Eigen::MatrixXd mass(model_->nv, model_->nv);
@@ -381,6 +383,7 @@ Eigen::MatrixXd MujocoEngine::mass_matrix(std::span<const double> state) {
 }
 
 RoundingTerms MujocoEngine::rounding_terms(std::span<const double> state) {
+  drain(held_since_);
   move_to(state);
   std::fill_n(data_->qfrc_passive, model_->nv, 0.0);
   passive_.apply(*data_);
