@@ -127,11 +127,9 @@ class LinkDrain {
     return sums;
   }
   /// @param elements  those of the link
-  void put_elements(const Tanks<H>& tanks, std::vector<Pulled<S>>& elements) const {
+  void put_elements(const Tanks<H>& tanks, std::vector<ElementNow<S>>& elements) const {
     for (std::size_t e = 0; e < elements.size(); ++e) {
-      const S share = tanks.template share<S>(elements_[e].tank);
-      elements[e].mass = share * elements_[e].full.mass;
-      elements[e].I = share * elements_[e].full.I;
+      elements[e].keep(tanks.template share<S>(elements_[e].tank), elements_[e].full);
     }
   }
 
@@ -149,7 +147,7 @@ class LinkDrain {
 
   LinkMass<S> fixed_;
   std::vector<Part<LinkMass<S>>> parts_;
-  std::vector<Part<Pulled<S>>> elements_;
+  std::vector<Part<ElementNow<S>>> elements_;
 };
 
 }  // namespace twincraft::bsm::TWINCRAFT_KERNEL

@@ -39,6 +39,7 @@ class BsmEngine final : public Engine {
         kernel_(make_kernel(*plan_, set)),
         link_forces_(plan_->forces, inputs_at(model, 0.0)),
         tree_(plan_->tree),
+        elements_(elements_of(model.assembly), [](const MassElement&) { return true; }),
         motion_(at_rest(tree_)),
         wrenches_(tree_.links.size()) {
     BsmEngine::hold(inputs_at(model, 0.0));
@@ -73,7 +74,7 @@ class BsmEngine final : public Engine {
     assign(x, seen);
     seen.time = time;
     move_links(tree_, x.joint_position, x.joint_rate, x.omega_BN_B, motion_);
-    fill_books(sum_up(motion_, assembly_, propellant_.shares(time), x.wheel_rate), x.dcm_NB, seen);
+    fill_books(sum_up(motion_, elements_, tree_, x.wheel_rate), x.dcm_NB, seen);
     seen.springs = spring_energy(tree_, x.joint_position);
     seen.potential = seen.springs + forces_.potential(x.r_BN_B(), motion_.poses);
   }
@@ -194,6 +195,7 @@ class BsmEngine final : public Engine {
     drained_to_ = time;
     const std::span<const double> shares = propellant_.shares(time);
     set_shares(tree_, shares);
+    elements_.set_shares(shares);
     forces_.set_shares(shares);
   }
 
@@ -209,6 +211,7 @@ class BsmEngine final : public Engine {
   // For observations and books; the kernel has its own forces and masses.
   LinkForces link_forces_;
   Tree tree_;                // with the masses at drained_to_
+  Elements elements_;        // so too
   double drained_to_ = 0.0;  // [s] NaN: at no time
   Motion motion_;
   std::vector<Wrench> wrenches_;

@@ -167,7 +167,7 @@ class Limb {
     Vec<S> held_at_center;  // [N] link axes
     LinkMass<S> mass;
     Places<H, S> position{}, rate{};
-    std::vector<Pulled<S>> elements;
+    std::vector<ElementNow<S>> elements;
     std::vector<RotorOn<H, S>> rotors;
   };
   struct Motion {
@@ -324,7 +324,7 @@ class Limb {
   void pull(std::size_t i, const Field<S>& field) {
     const Motion& m = motions_[i];
     Pull<S> sum;
-    for (const Pulled<S>& element : links_[i].elements) {
+    for (const ElementNow<S>& element : links_[i].elements) {
       const Vec<S> r_EL = m.at.dcm_WL * element.r_EL;
       const Vec<S> place = m.at.r_LB + r_EL;
       sum.add(element.mass * field.difference(place), r_EL);

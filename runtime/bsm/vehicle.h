@@ -401,7 +401,7 @@ class Vehicle {
   }
 
   void pull_on_hub(const Field<H>& field) {
-    for (const Pulled<H>& element : elements_) {
+    for (const ElementNow<H>& element : elements_) {
       const Vec<H> force = element.mass * field.difference(element.r_EL);
       hub_.f0 -= force;
       hub_.n0 -= cross(element.r_EL, force);
@@ -449,7 +449,7 @@ class Vehicle {
   H mu_{};
   LinkMass<H> mass_;
   LinkDrain<H, H> draining_;
-  std::vector<Pulled<H>> elements_;
+  std::vector<ElementNow<H>> elements_;
   std::vector<RotorOn<H, H>> rotors_;
   Pull<H> held_;
   Vec<H> held_at_center_;
