@@ -22,36 +22,60 @@ std::vector<std::vector<MassElement>> elements_of(const Assembly& assembly) {
   return elements;
 }
 
+/// What the engines of one model share: none of it ever changes.
+struct Machine {
+  explicit Machine(const Model& model)
+      : assembly(model.assembly),
+        initial(model.initial),
+        loads(model.loads),
+        start(inputs_at(model, 0.0)),
+        layout{model.engines.attitude, static_cast<int>(model.assembly.links.size()) - 1,
+               static_cast<int>(model.assembly.rotors.size())},
+        plan(make_plan(model.assembly, model.engines.attitude, model.gravity, model.loads,
+                       model.engines.chains, model.forces)),
+        propellant(model.tanks),
+        forces(model, model.gravity.bsm, elements_of(model.assembly), FieldFrame::kFalling),
+        elements(elements_of(model.assembly), [](const MassElement&) { return true; }) {}
+
+  Assembly assembly;
+  VehicleState initial;
+  std::vector<Load> loads;
+  Inputs start;  // of t = 0
+  StateLayout layout;
+  Plan plan;
+  // As at t = 0: each engine begins with a copy.
+  PropellantLedger propellant;
+  ForceModel forces;
+  Elements elements;
+};
+
 class BsmEngine final : public Engine {
  public:
-  BsmEngine(const Model& model, InstructionSet set)
-      : assembly_(model.assembly),
-        initial_(model.initial),
-        loads_(model.loads),
-        propellant_(model.tanks),
-        forces_(model, model.gravity.bsm, elements_of(model.assembly), FieldFrame::kFalling),
-        layout_{model.engines.attitude, static_cast<int>(model.assembly.links.size()) - 1,
-                static_cast<int>(model.assembly.rotors.size())},
-        held_(HeldInputs::none(model.assembly)),
-        plan_(std::make_shared<const Plan>(make_plan(model.assembly, model.engines.attitude,
-                                                     model.gravity, model.loads,
-                                                     model.engines.chains, model.forces))),
-        kernel_(make_kernel(*plan_, set)),
-        link_forces_(plan_->forces, inputs_at(model, 0.0)),
-        tree_(plan_->tree),
-        elements_(elements_of(model.assembly), [](const MassElement&) { return true; }),
+  BsmEngine(std::shared_ptr<const Machine> machine, InstructionSet set)
+      : machine_(std::move(machine)),
+        set_(set),
+        kernel_(make_kernel(machine_->plan, set)),
+        held_(HeldInputs::none(machine_->assembly)),
+        propellant_(machine_->propellant),
+        forces_(machine_->forces),
+        link_forces_(machine_->plan.forces, machine_->start),
+        tree_(machine_->plan.tree),
+        elements_(machine_->elements),
         motion_(at_rest(tree_)),
         wrenches_(tree_.links.size()) {
-    BsmEngine::hold(inputs_at(model, 0.0));
+    BsmEngine::hold(machine_->start);
   }
 
   std::string_view name() const override { return kBsmKey; }
-  const StateLayout& layout() const override { return layout_; }
+  const StateLayout& layout() const override { return machine_->layout; }
+  std::unique_ptr<Engine> another() const override {
+    return std::make_unique<BsmEngine>(machine_, set_);
+  }
 
-  Eigen::VectorXd initial_state() const override { return pack(initial_, layout_); }
+  Eigen::VectorXd initial_state() const override { return pack(machine_->initial, layout()); }
 
   void hold(const Inputs& inputs) override {
-    held_.set(inputs, loads_);
+    held_.set(inputs, machine_->loads);
     forces_.hold(inputs);
     propellant_.hold(inputs);
     link_forces_.hold(inputs);
@@ -88,7 +112,7 @@ class BsmEngine final : public Engine {
 
   HeldMachine held() const override {
     HeldMachine machine;
-    for (const Link& link : assembly_.links) {
+    for (const Link& link : machine_->assembly.links) {
       HeldLink held;
       for (const MassElement& element : link.elements)
         held.mass = held.mass + properties_of(element);
@@ -104,7 +128,7 @@ class BsmEngine final : public Engine {
       }
       machine.links.push_back(held);
     }
-    for (const Rotor& rotor : assembly_.rotors)
+    for (const Rotor& rotor : machine_->assembly.rotors)
       machine.wheels.push_back({rotor.axis_L, rotor.spin_inertia});
     return machine;
   }
@@ -131,7 +155,7 @@ class BsmEngine final : public Engine {
                                motor_power(x.wheel_rate, held_.motor_torque);
     BookRates rates{.power = inner_power, .own_power = inner_power};
     if (!acts() && !forces_.falls_as_a_whole() && propellant_.is_idle()) {
-      rates.force_N = plan_->mass() * forces_.fall(x.r_BN_N, x.dcm_NB, motion_.poses);
+      rates.force_N = machine_->plan.mass() * forces_.fall(x.r_BN_N, x.dcm_NB, motion_.poses);
       return rates;
     }
     move_links(tree_, x.joint_position, x.joint_rate, x.omega_BN_B, motion_);
@@ -184,7 +208,7 @@ class BsmEngine final : public Engine {
   }
 
   State read(std::span<const double> state) const {
-    const UnpackedState x = unpack(state, layout_);
+    const UnpackedState x = unpack(state, layout());
     return {x, x.q_BN.toRotationMatrix()};
   }
 
@@ -199,16 +223,13 @@ class BsmEngine final : public Engine {
     forces_.set_shares(shares);
   }
 
-  Assembly assembly_;
-  VehicleState initial_;
-  std::vector<Load> loads_;
+  std::shared_ptr<const Machine> machine_;
+  InstructionSet set_;
+  std::unique_ptr<Kernel> kernel_;
+  HeldInputs held_;
+  // For observations and books; the kernel has its own forces and masses.
   PropellantLedger propellant_;
   ForceModel forces_;
-  StateLayout layout_;
-  HeldInputs held_;
-  std::shared_ptr<const Plan> plan_;
-  std::unique_ptr<Kernel> kernel_;
-  // For observations and books; the kernel has its own forces and masses.
   LinkForces link_forces_;
   Tree tree_;                // with the masses at drained_to_
   Elements elements_;        // so too
@@ -222,7 +243,7 @@ class BsmEngine final : public Engine {
 
 std::unique_ptr<Engine> make_bsm_engine(const Model& model, bsm::InstructionSet set) {
   if (model.simulation.translation) return bsm::make_point_mass_engine(model);
-  return std::make_unique<bsm::BsmEngine>(model, set);
+  return std::make_unique<bsm::BsmEngine>(std::make_shared<const bsm::Machine>(model), set);
 }
 
 }  // namespace twincraft

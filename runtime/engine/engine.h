@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <span>
 #include <stdexcept>
 #include <string_view>
@@ -26,6 +27,10 @@ class Engine {
 
   virtual std::string_view name() const = 0;  // the key of its EngineName
   virtual const StateLayout& layout() const = 0;
+
+  /// A second engine of the same model, as newly built: its workspace is its own, and what never
+  /// changes is shared. Each may be used on a thread of its own.
+  virtual std::unique_ptr<Engine> another() const = 0;
 
   /// The state of the model at t = 0.
   virtual Eigen::VectorXd initial_state() const = 0;

@@ -50,12 +50,12 @@ ForceModel::ForceModel(const Model& model, GravityLaw law,
   needs_elements_ =
       law != GravityLaw::kNone ||
       std::any_of(loads_.begin(), loads_.end(), [](const Load& load) { return !load.r_FL_L; });
-  acting_loads_.reserve(loads_.size());
   hold(inputs_at(model, 0.0));
 }
 
 void ForceModel::hold(const Inputs& inputs) {
   acting_loads_.clear();
+  acting_loads_.reserve(loads_.size());  // for all, so that later calls do not allocate
   for (std::size_t i = 0; i < loads_.size(); ++i) {
     const Load& load = loads_[i];
     const Vector3d force_L = inputs.vector(inputs.layout.force(static_cast<int>(i)));

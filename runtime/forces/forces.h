@@ -131,7 +131,7 @@ class ForceModel {
   Elements elements_;
   double mass_ = 0.0;
   std::vector<Load> loads_;
-  std::vector<HeldLoad> acting_loads_;  // capacity for all: hold() does not allocate
+  std::vector<HeldLoad> acting_loads_;
 };
 
 /// g(r) of a point mass [m/s^2].
