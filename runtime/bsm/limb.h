@@ -10,27 +10,9 @@
 #include "runtime/bsm/law.h"
 #include "runtime/bsm/parts.h"
 #include "runtime/bsm/plan.h"
+#include "runtime/bsm/rotor.h"
 
 namespace twincraft::bsm::TWINCRAFT_KERNEL {
-
-/// A balanced wheel on a link.
-template <class H, class S>
-struct RotorOn {
-  Vec<S> axis_L;
-  S spin_inertia{}, motor_torque{};
-  S spin_up{};  // [rad/s^2] what the motor gives a wheel on a mount at rest
-  Places<H, S> speed{};
-
-  void hold(std::size_t l, double torque) {
-    set_lane(motor_torque, l, torque);
-    set_lane(spin_up, l, torque / lane(spin_inertia, l));
-  }
-  void set(std::size_t l, const RotorConstants& from, int place) {
-    set_lane(axis_L, l, from.axis_L);
-    set_lane(spin_inertia, l, from.spin_inertia);
-    speed[l % kLimbs<H, S>] = place;
-  }
-};
 
 template <class H, class S>
 class Limb {

@@ -7,9 +7,8 @@
 
 #include "runtime/bsm/charts.h"
 #include "runtime/bsm/kernel.h"
-#include "runtime/bsm/limb.h"
-#include "runtime/bsm/point.h"
-#include "runtime/forces/list.h"
+#include "runtime/bsm/limbs.h"
+#include "runtime/bsm/push.h"
 
 namespace twincraft::bsm::TWINCRAFT_KERNEL {
 
@@ -29,12 +28,12 @@ class Vehicle {
     rotors_.resize(plan_.hub.rotors.size());
     for (std::size_t l = 0; l < plans.size(); ++l) set_hub(l, *plans[l]);
     set_hub_matrices();
-    group_limbs(plans);
+    limbs_.build(plans, layout_);
     is_rigid_ = plan_.limbs.empty() && !plan_.tree.links.data()->drains;
     if (is_rigid_) factors_ = HubFactors(hub_);
     for (const LimbPlan& limb : plan_.limbs) has_elements_ = has_elements_ || pulls_on(limb);
     has_elements_ = has_elements_ || !elements_.empty();
-    list_forces(plans);
+    push_.build(plans, limbs_);
   }
 
   void hold(Inputs held) {
@@ -47,20 +46,20 @@ class Vehicle {
       for (std::size_t k = 0; k < rotors_.size(); ++k) {
         rotors_[k].hold(l, held[l]->motor_torque.data()[plans_[l]->hub.rotors.data()[k]]);
       }
-      forces_.hold(l, plans_[l]->forces, held[l]->inputs);
+      push_.hold(l, *plans_[l], held[l]->inputs);
       tanks_.hold(l, held[l]->inputs);
     }
-    turns_alone_ = is_rigid_ && !has_elements_ && !acts_at_center_ && places_.empty();
+    turns_alone_ = is_rigid_ && !has_elements_ && !acts_at_center_ && !push_.exists();
     for (std::size_t l = 0; l < kLanes<H>; ++l) {
       turns_alone_ = turns_alone_ && held[l]->force_L.data()->isZero(0.0) &&
                      plans_[l]->tree.links.data()->first_moment.isZero(0.0);
     }
     motor_torque_ = {};
     for (const RotorOn<H, H>& rotor : rotors_) motor_torque_ += rotor.motor_torque * rotor.axis_L;
-    for_each_group([this, &held](auto& group) {
+    limbs_.for_each([this, &held](auto& group) {
       for (std::size_t l = 0; l < kLanes<S>; ++l) {
         const std::size_t p = l / kLimbs<H, S>;
-        group.limb.hold(l, limb_of(group, l, *plans_[p]), *held[p]);
+        group.limb.hold(l, limbs_.plan_of(group, l, *plans_[p]), *held[p]);
       }
     });
     if (plan_.tree.tanks > 0) drain(held[0]->inputs.since);
@@ -99,24 +98,6 @@ class Vehicle {
     derivative_steady(time, state, rate);
   }
 
-  /// Like limbs, side by side.
-  template <class Of>
-  struct Group {
-    std::array<std::size_t, kLimbs<H, S>> limbs;  // of the plan
-    bool is_full;  // else the second lane repeats the first one's limb
-    Of limb;
-  };
-  /// Whose limbs are in which lane.
-  struct LanesOf {
-    LanesOf(const std::array<std::size_t, kLimbs<H, S>>& of, Plans plans_of_hub) {
-      for (std::size_t l = 0; l < kLanes<S>; ++l) {
-        plans[l] = plans_of_hub[l / kLimbs<H, S>];
-        limbs[l] = &plans[l]->limbs.data()[of[l % kLimbs<H, S>]];
-      }
-    }
-    std::array<const LimbPlan*, kLanes<S>> limbs;
-    std::array<const Plan*, kLanes<S>> plans;
-  };
   /// The hub equation's matrix, factored: Schur complement of M.
   struct HubFactors {
     HubFactors() = default;
@@ -134,20 +115,6 @@ class Vehicle {
     Ldl<H> schur;
   };
 
-  template <class Each>
-  void for_each_group(const Each& each) {
-    for (auto& group : points_) each(group);
-    for (auto& group : limbs_) each(group);
-  }
-  template <class Each>
-  void for_each_group(const Each& each) const {
-    for (const auto& group : points_) each(group);
-    for (const auto& group : limbs_) each(group);
-  }
-  template <class Of>
-  static const LimbPlan& limb_of(const Group<Of>& group, std::size_t l, const Plan& plan) {
-    return plan.limbs.data()[group.limbs[l % kLimbs<H, S>]];
-  }
   static Vec<H> vector(const double* state, int at) {
     return {entry<H>(state, at), entry<H>(state, at + 1), entry<H>(state, at + 2)};
   }
@@ -181,40 +148,6 @@ class Vehicle {
     return pulls;
   }
 
-  void add_group(const std::array<std::size_t, kLimbs<H, S>>& limbs, bool is_full, Plans plans) {
-    const LanesOf lanes(limbs, plans);
-    if (lanes.limbs[0]->is_point) {
-      points_.push_back({limbs, is_full, Point<H, S>(lanes.limbs, lanes.plans, layout_)});
-    } else {
-      limbs_.push_back({limbs, is_full, Limb<H, S>(lanes.limbs, lanes.plans, layout_)});
-    }
-  }
-
-  void group_limbs(Plans plans) {
-    const std::size_t count = plan_.limbs.size();
-    if constexpr (kLimbs<H, S> == 1) {
-      for (std::size_t k = 0; k < count; ++k) add_group({k}, true, plans);
-    } else {
-      for (std::size_t k = 0; k < count; ++k) {
-        if (is_grouped(k)) continue;
-        std::size_t other = k + 1;
-        while (other < count && (is_grouped(other) ||
-                                 !are_alike(plan_.limbs.data()[k], plan_.limbs.data()[other]))) {
-          ++other;
-        }
-        const bool alone = other == count;
-        add_group({k, alone ? k : other}, !alone, plans);
-      }
-    }
-  }
-  bool is_grouped(std::size_t k) const {
-    bool found = false;
-    for_each_group([&found, k](const auto& group) {
-      for (const std::size_t limb : group.limbs) found = found || limb == k;
-    });
-    return found;
-  }
-
   template <class Chart>
   void derivative_in(double time, const double* state, double* rate) {
     const Chart chart(state, Layout::kAttitude);
@@ -225,17 +158,17 @@ class Vehicle {
     }
     const Mat<H> dcm_NB = chart.dcm_NB();
     const Vec<S> omega_S = spread(omega);
-    for_each_group([&](auto& group) { group.limb.move(state, omega_S); });
+    limbs_.for_each([&](auto& group) { group.limb.move(state, omega_S); });
 
     begin_hub_law(omega, rotor_momentum(state, omega));
-    if (forces_.acts()) push(time, state, dcm_NB, omega);
+    if (push_.acts()) push(time, state, dcm_NB, omega);
     const Vec<H> g_N = sum_laws(vector(state, 0), dcm_NB);
     if (!is_rigid_) factors_ = HubFactors(hub_);
     const Vec<H> omega_dot = factors_.schur.solve(transposed(factors_.coupling, hub_.f0) - hub_.n0);
     const Vec<H> a = -factors_.M.solve(hub_.f0) - factors_.coupling * omega_dot;
 
     const Vec<S> omega_dot_S = spread(omega_dot), a_S = spread(a);
-    for_each_group([&](auto& group) { group.limb.recover(omega_dot_S, a_S, rate); });
+    limbs_.for_each([&](auto& group) { group.limb.recover(omega_dot_S, a_S, rate); });
     put_hub_rates(chart, state, dcm_NB * a + g_N, omega_dot, rate);
     for (int i = layout_.joint; i < layout_.joint_rate; ++i) {
       put_entry(rate, i, entry<H>(state, i + layout_.joint_rate - layout_.joint));
@@ -245,64 +178,11 @@ class Vehicle {
   // Apart from derivative_in(): most vehicles have no such force.
   [[gnu::noinline]] void push(double time, const double* state, const Mat<H>& dcm_NB,
                               const Vec<H>& omega) {
-    const Surroundings<H> around{H(time), vector(state, 0), vector(state, 3), dcm_NB};
-    LinkMotion<H> hub;
-    hub.dcm_WL = {{H(1.0), H(0.0), H(0.0)}, {H(0.0), H(1.0), H(0.0)}, {H(0.0), H(0.0), H(1.0)}};
-    hub.omega = omega;
-    const auto with_place = [this](int link, const auto& on_point, const auto& on_limb) {
-      const ForcePlace& place = places_.data()[link];
-      if (place.is_point)
-        on_point(points_.data()[place.group].limb, place);
-      else
-        on_limb(limbs_.data()[place.group].limb, place);
-    };
-    const auto motion_of = [&](int link) {
-      LinkMotion<H> motion = hub;
-      const auto take = [&motion](const auto& limb, const ForcePlace& place) {
-        motion = limb.motion_of(place.link, place.lane);
-      };
-      if (link > 0) with_place(link, take, take);
-      return motion;
-    };
-    forces_.add(around, motion_of, [&](int link, const Pull<H>& pull) {
-      if (link == 0) {
-        hub_.f0 -= pull.force;
-        hub_.n0 -= pull.torque;
-        return;
-      }
-      const auto give = [&pull](auto& limb, const ForcePlace& place) {
-        limb.push(place.link, place.lane, pull);
-      };
-      with_place(link, give, give);
-    });
-  }
-
-  /// Where a link that forces act on is among the limbs.
-  struct ForcePlace {
-    bool is_point = false;
-    std::size_t group = 0, link = 0, lane = 0;
-  };
-
-  void list_forces(Plans plans) {
-    std::array<const Forces*, kLanes<H>> of{};
-    for (std::size_t l = 0; l < kLanes<H>; ++l) of[l] = &plans[l]->forces;
-    forces_ = ForceList<H>(of);
-    const std::vector<int> links = links_of(plan_.forces);
-    if (links.empty()) return;
-    places_.resize(plan_.tree.links.size());
-    find_places(points_, true);
-    find_places(limbs_, false);
-    for_each_group([](auto& group) { group.limb.watch(); });
-  }
-  template <class Of>
-  void find_places(const std::vector<Group<Of>>& groups, bool is_point) {
-    for (std::size_t g = 0; g < groups.size(); ++g)
-      for (std::size_t j = 0; j < kLimbs<H, S>; ++j) {
-        if (j > 0 && !groups[g].is_full) continue;
-        const LimbPlan& limb = plan_.limbs.data()[groups[g].limbs[j]];
-        for (std::size_t i = 0; i < limb.links.size(); ++i)
-          places_[static_cast<std::size_t>(limb.links[i].link)] = {is_point, g, i, j};
-      }
+    push_.add({H(time), vector(state, 0), vector(state, 3), dcm_NB}, omega, limbs_,
+              [this](const Pull<H>& pull) {
+                hub_.f0 -= pull.force;
+                hub_.n0 -= pull.torque;
+              });
   }
 
   /// A rigid hub whose origin is its centre of mass, that no force acts on: rotation knows nothing
@@ -346,7 +226,7 @@ class Vehicle {
       draining_.put_elements(tanks_, elements_);
       set_hub_matrices();
     }
-    for_each_group([this](auto& group) { group.limb.drain(tanks_); });
+    limbs_.for_each([this](auto& group) { group.limb.drain(tanks_); });
   }
 
   /// What of the hub's own law does not change with its motion.
@@ -392,7 +272,7 @@ class Vehicle {
 
   Vec<H> center_of_mass() const {
     Moment<H> sum{mass_.mass, mass_.moment};
-    for_each_group([&sum](const auto& group) {
+    limbs_.for_each([&sum](const auto& group) {
       const Moment<S> limb = group.limb.moment();
       const auto both = [&group](const S& value) { return gathered<H, S>(value, group.is_full); };
       sum += {both(limb.mass), {both(limb.moment.x), both(limb.moment.y), both(limb.moment.z)}};
@@ -411,7 +291,7 @@ class Vehicle {
 
   void add_limbs(const Field<H>* field, const Vec<H>* r_CB) {
     if (field == nullptr && r_CB == nullptr) {
-      for_each_group(
+      limbs_.for_each(
           [this](auto& group) { add(group.limb.contribute(nullptr, nullptr), group.is_full); });
       return;
     }
@@ -422,7 +302,7 @@ class Vehicle {
                  field->has_gradient};
     }
     if (r_CB != nullptr) r_CB_S = spread(*r_CB);
-    for_each_group([&](auto& group) {
+    limbs_.for_each([&](auto& group) {
       add(group.limb.contribute(field == nullptr ? nullptr : &field_S,
                                 r_CB == nullptr ? nullptr : &r_CB_S),
           group.is_full);
@@ -455,15 +335,13 @@ class Vehicle {
   Vec<H> held_at_center_;
   bool acts_at_center_ = false;
   Vec<H> motor_torque_;  // of all rotors on the hub, on the rotors
-  std::vector<Group<Point<H, S>>> points_;
-  std::vector<Group<Limb<H, S>>> limbs_;
+  Limbs<H, S> limbs_;
   bool is_rigid_ = false;      // no limbs, no draining: factored once
   bool turns_alone_ = false;   // see turn_alone()
   bool has_elements_ = false;  // that feel another field than B does
   HubFactors factors_;
   Law<H> hub_alone_, hub_;
-  ForceList<H> forces_;             // that follow the motion of links
-  std::vector<ForcePlace> places_;  // by link; empty: there are no such forces
+  Push<H, S> push_;  // of forces that follow the motion of links
 };
 
 }  // namespace twincraft::bsm::TWINCRAFT_KERNEL
