@@ -14,11 +14,8 @@ namespace twincraft::bsm::TWINCRAFT_KERNEL {
 template <class H>
 class Tanks {
  public:
-  Tanks() = default;
   /// @param count  how many; one more, at the end, is always full: what drains with no tank
   explicit Tanks(std::size_t count) : tanks_(count + 1) {}
-
-  int full() const { return static_cast<int>(tanks_.size()) - 1; }
 
   void hold(std::size_t l, const Inputs& inputs) {
     if (l == 0) flow_ = false;
