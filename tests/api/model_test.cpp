@@ -102,7 +102,7 @@ TEST(Models, RunAsTheProgramDoes) {
 }
 
 TEST(Models, RunWithOneEngineAndWithAVerdictThatIsNoFault) {
-  const Model coarse = Model::load(test::file("models/quickstart.yaml"), {"simulation.step=0.4 s"});
+  const Model coarse = Model::load(test::file("models/quickstart.yaml"), {"simulation.step=0.8 s"});
   const auto run = coarse.run({Engines::bsm});
   EXPECT_EQ(run.verdict(), "unresolved");
   EXPECT_FALSE(run.passes());
