@@ -12,10 +12,10 @@ target_compile_definitions(sc_options INTERFACE TWINCRAFT_VERSION="${PROJECT_VER
 
 # The rooms go into a shared library, too, from which nothing gets out but its C interface. A unique
 # symbol would be shared by two versions of that library in one process.
-set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 set(CMAKE_CXX_VISIBILITY_PRESET hidden)
 set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
-target_compile_options(sc_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:-fno-gnu-unique>)
+# Programs and rooms with one and the same option, because they share precompiled headers.
+target_compile_options(sc_options INTERFACE -fPIC $<$<CXX_COMPILER_ID:GNU>:-fno-gnu-unique>)
 
 option(TWINCRAFT_SANITIZE "Sanitizers, and the harnesses of tests/fuzz; needs Clang" OFF)
 if(TWINCRAFT_SANITIZE)
