@@ -50,3 +50,13 @@ function(sc_program name)
   target_link_libraries(${name} PRIVATE sc_options)
   target_precompile_headers(${name} REUSE_FROM sc_precompiled)
 endfunction()
+
+# sc_cold(TARGET [SOURCE...]): what takes longer to compile than it will ever run. Nothing that a run
+# repeats, per step or per sample, is in it. -O1 leaves every result as it is.
+function(sc_cold target)
+  set(sources ${ARGN})
+  if(NOT sources)
+    get_target_property(sources ${target} SOURCES)
+  endif()
+  set_source_files_properties(${sources} PROPERTIES COMPILE_OPTIONS $<$<CONFIG:Release>:-O1>)
+endfunction()
