@@ -19,7 +19,8 @@ install(TARGETS twincraft EXPORT twincraftTargets
         LIBRARY COMPONENT library NAMELINK_COMPONENT development
         INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(DIRECTORY runtime/api/include/ TYPE INCLUDE COMPONENT development)
-install(DIRECTORY examples DESTINATION ${share_folder} COMPONENT development)
+install(DIRECTORY examples DESTINATION ${share_folder} COMPONENT development
+        PATTERN __pycache__ EXCLUDE PATTERN build EXCLUDE)
 install(EXPORT twincraftTargets NAMESPACE twincraft:: DESTINATION ${package_folder}
         COMPONENT development)
 
@@ -35,6 +36,7 @@ install(FILES ${CMAKE_CURRENT_BINARY_DIR}/twincraftConfig.cmake
 
 file(RELATIVE_PATH from_pkgconfig_to_prefix
      ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
+string(REGEX REPLACE "/$" "" from_pkgconfig_to_prefix ${from_pkgconfig_to_prefix})
 configure_file(cmake/package/twincraft.pc.in twincraft.pc @ONLY)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/twincraft.pc
         DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)

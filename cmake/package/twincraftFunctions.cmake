@@ -43,7 +43,8 @@ function(_twincraft_ask result)
   execute_process(COMMAND ${sccompile} ${ARGN} RESULT_VARIABLE code
                   OUTPUT_VARIABLE lines ERROR_VARIABLE said OUTPUT_STRIP_TRAILING_WHITESPACE)
   if(NOT code EQUAL 0)
-    message(FATAL_ERROR "twincraft_compile: sccompile exits with ${code}\n${said}")
+    string(REPLACE "\n" "\n  " said "\n${said}")  # indented, CMake leaves lines as they are
+    message(FATAL_ERROR "twincraft_compile: sccompile exits with ${code}${said}")
   endif()
   string(REPLACE "\n" ";" lines "${lines}")
   set(${result} "${lines}" PARENT_SCOPE)

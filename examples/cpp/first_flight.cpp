@@ -1,6 +1,7 @@
 // Fly a spec for a minute and print where it ended: first_flight models/quickstart.yaml
-#include <cstdio>
 #include <twincraft/simulation.h>
+
+#include <cstdio>
 
 int main(int argc, char** argv) try {
   if (argc != 2) return 2;

@@ -2,11 +2,11 @@
 //
 //   mrp_feedback models/quickstart.yaml
 //
-// A proportional-derivative law in modified Rodrigues parameters turns the hub back to its initial
-// attitude and stops its rotation. It acts ten times a second for half a minute. Every tick prints
-// the time and the state, exactly, as hexadecimal numbers; examples/c and examples/python hold the
-// same law and print the same bytes. Compile with -ffp-contract=off to get them on processors with
-// fused multiply-add.
+// A proportional-derivative law in modified Rodrigues parameters slows the rotation of the hub and
+// turns it back towards its initial attitude. It acts ten times a second for half a minute. Every
+// tick prints the time and the state, exactly, as hexadecimal numbers; examples/c and
+// examples/python hold the same law and print the same bytes. Compile with -ffp-contract=off to
+// get them on processors with fused multiply-add.
 #include <twincraft/simulation.h>
 
 #include <array>
