@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "compiler/diag/diagnostics.h"
+#include "compiler/units/unit_database.h"
 #include "compiler/units/unit_text.h"
 
 namespace twincraft {
@@ -160,7 +161,8 @@ class UnitSystem {
  public:
   UnitSystem() {
     ut_set_error_message_handler(ut_ignore);
-    system_.reset(ut_read_xml(nullptr));
+    const std::string database = own_unit_database();
+    system_.reset(ut_read_xml(database.empty() ? nullptr : database.c_str()));
     if (!system_) throw std::runtime_error("the unit database of UDUNITS-2 cannot be read");
     for (const OwnUnit& own : kOwnUnits) {
       const UnitHandle base = parsed(own.of);

@@ -133,6 +133,14 @@ tc_status tc_model_find(tc_model* model, tc_signals which, const char* name, siz
   });
 }
 
+tc_status tc_model_read_input(tc_model* model, size_t input, const char* text, double* value) {
+  return inside(model, Use::kAsks, [&] {
+    check_input(*model->model, input, 1);
+    const double number = read_input(*model->model, input, text);
+    if (value != nullptr) *value = number;
+  });
+}
+
 int tc_model_degrees_of_freedom(const tc_model* model) {
   return model == nullptr || !model->is_whole() ? 0 : model->model->model().degrees_of_freedom();
 }

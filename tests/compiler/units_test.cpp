@@ -1,15 +1,21 @@
 // Quantities: what a number is, what a unit is, which dimension fits, and how exactly it converts.
 #include "compiler/units/units.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <numbers>
 #include <stdexcept>
 #include <thread>
 #include <vector>
+
+#include "compiler/units/unit_database.h"
 
 namespace twincraft {
 namespace {
@@ -292,6 +298,25 @@ TEST(UnitSystem, PrintsNothingOfItsOwn) {
   error_of("5 nonsense", "m");
   error_of("5 kg @", "m");
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+TEST(UnitDatabase, IsBesideItsBinaryOrOneFolderAbove) {
+  const std::filesystem::path root =
+      std::filesystem::path(testing::TempDir()) / fmt::format("unit-database-{}", ::getpid());
+  const std::filesystem::path file = root / "udunits" / "udunits2.xml";
+  EXPECT_EQ(unit_database_beside(root / "library.so"), "");
+  std::filesystem::create_directories(file.parent_path());
+  std::ofstream(file) << "<unit-system/>\n";
+  EXPECT_EQ(unit_database_beside(root / "library.so"), file);
+  EXPECT_EQ(unit_database_beside(root / "bin" / "program"), file);
+  EXPECT_EQ(unit_database_beside(root / "bin" / "deeper" / "program"), "");
+  std::filesystem::remove_all(root);
+}
+
+TEST(UnitDatabase, IsTheUsersWhereTheEnvironmentNamesOne) {
+  ::setenv("UDUNITS2_XML_PATH", "/nowhere/units.xml", 1);
+  EXPECT_EQ(own_unit_database(), "");
+  ::unsetenv("UDUNITS2_XML_PATH");
 }
 
 TEST(UnitSystemDeathTest, SaysThatItsDatabaseCannotBeRead) {

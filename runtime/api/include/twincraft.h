@@ -111,6 +111,9 @@ TC_API const char* tc_model_signal_meaning(const tc_model* model, tc_signals whi
  * `count` may be NULL. TC_USAGE. */
 TC_API tc_status tc_model_find(tc_model* model, tc_signals which, const char* name, size_t* index,
                                size_t* count);
+/* What a number with a unit, `10 mN m`, is in the unit of an input. TC_USAGE. */
+TC_API tc_status tc_model_read_input(tc_model* model, size_t input, const char* text,
+                                     double* value);
 TC_API int tc_model_degrees_of_freedom(const tc_model* model);
 TC_API double tc_model_step(const tc_model* model);     /* simulation.step [s] */
 TC_API double tc_model_duration(const tc_model* model); /* simulation.duration [s] */

@@ -290,6 +290,13 @@ class Model {
     return range;
   }
 
+  /// What a number with a unit, `10 mN m`, is in the unit of an input.
+  double read_input(std::size_t input, const std::string& text) const {
+    double value = 0.0;
+    check(tc_model_read_input(handle(), input, text.c_str(), &value));
+    return value;
+  }
+
   int degrees_of_freedom() const { return tc_model_degrees_of_freedom(handle()); }
   double step() const { return tc_model_step(handle()); }          // [s] simulation.step
   double duration() const { return tc_model_duration(handle()); }  // [s] simulation.duration
@@ -520,6 +527,21 @@ class Twin {
     double reached = 0.0;
     const tc_status status = tc_twin_run_until(handle(), time, &control, &reached);
     callbacks.rethrow();
+    check(status);
+    return reached;
+  }
+
+  /// The same with a controller for each engine, which sees its outputs and drives it alone.
+  double run_each_until(double time, double every, std::function<void(double)> bsm,
+                        std::function<void(double)> mujoco, std::function<bool(double)> stop = {}) {
+    detail::Callbacks first{std::move(bsm), std::move(stop), nullptr};
+    detail::Callbacks second{std::move(mujoco), {}, nullptr};
+    const tc_control controls[] = {first.control(every), second.control(every)};
+    double reached = 0.0;
+    const tc_status status =
+        tc_twin_run_each_until(handle(), time, &controls[0], &controls[1], &reached);
+    first.rethrow();
+    second.rethrow();
     check(status);
     return reached;
   }
