@@ -3,10 +3,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <filesystem>
 
-#include "compiler/files/output.h"
 #include "runtime/report/study_table.h"
 #include "runtime/report/table.h"
 #include "runtime/study/in_order.h"
