@@ -2,7 +2,6 @@
 #include "compiler/pipeline.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <openssl/evp.h>
 
 #include <algorithm>

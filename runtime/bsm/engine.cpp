@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <utility>
 
 #include "runtime/bsm/books.h"
 #include "runtime/bsm/kernel.h"

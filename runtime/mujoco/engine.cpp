@@ -21,7 +21,6 @@
 #include <utility>
 #include <vector>
 
-#include "compiler/ir/number.h"
 #include "runtime/forces/forces.h"
 #include "runtime/forces/link_forces.h"
 #include "runtime/forces/propellant_ledger.h"

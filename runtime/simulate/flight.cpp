@@ -7,7 +7,6 @@
 #include <array>
 #include <cstdint>
 #include <limits>
-#include <utility>
 
 #include "runtime/integrate/engine_ode.h"
 
