@@ -10,26 +10,26 @@
 namespace twincraft::api {
 namespace {
 
-std::vector<std::string> overrides_of(const tc_load_options* options) {
-  if (options == nullptr || options->set_count == 0) return {};
-  return {options->set, options->set + options->set_count};
-}
-
-tc_status load(CompileRequest request, tc_model** out) noexcept {
+/// @param request  makes the request; it runs where an exception is caught
+template <class Request>
+tc_status load(const tc_load_options* options, tc_model** out, const Request& request) noexcept {
   if (out == nullptr) return TC_USAGE;
   *out = new (std::nothrow) tc_model;
   if (*out == nullptr) return TC_MEMORY;
   tc_model& handle = **out;
   return attempt(handle.parts.error, [&] {
+    check_struct(options);
+    CompileRequest wanted = request();
+    if (options != nullptr && options->set_count > 0)
+      wanted.overrides.assign(options->set, options->set + options->set_count);
     Diagnostics diagnostics;
-    const auto keep = [&] { handle.diagnostics = to_json(diagnostics); };
     try {
-      handle.model = CompiledModel::load(request, diagnostics);
+      handle.model = CompiledModel::load(wanted, diagnostics);
     } catch (...) {
-      keep();
+      handle.diagnostics = to_json(diagnostics);
       throw;
     }
-    keep();
+    handle.diagnostics = to_json(diagnostics);
   });
 }
 
@@ -62,14 +62,16 @@ const char* tc_engine_name(tc_engine engine) {
 
 tc_status tc_model_load(const char* path, const tc_load_options* options, tc_model** model) {
   if (path == nullptr) return TC_USAGE;
-  return load({path, overrides_of(options)}, model);
+  return load(options, model, [path] { return CompileRequest{path, {}}; });
 }
 
 tc_status tc_model_loads(const char* text, size_t length, const tc_load_options* options,
                          tc_model** model) {
   if (text == nullptr) return TC_USAGE;
-  const char* name = options != nullptr && options->name != nullptr ? options->name : "<string>";
-  return load({name, overrides_of(options), std::string(text, length)}, model);
+  return load(options, model, [&] {
+    const char* name = options != nullptr && options->name != nullptr ? options->name : "<string>";
+    return CompileRequest{name, {}, std::string(text, length)};
+  });
 }
 
 void tc_model_free(tc_model* model) { delete model; }

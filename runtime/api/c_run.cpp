@@ -31,6 +31,7 @@ constexpr tc_run_options kDefaults{sizeof(tc_run_options), TC_BOTH, 0, 0, nullpt
 int cores() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
 
 void fly_into(tc_run& handle, const tc_run_options& wanted) {
+  check_struct(&wanted);
   std::atomic<bool> stop = false;
   RunRequest request;
   request.options.bsm = wanted.engines != TC_MUJOCO_ALONE;

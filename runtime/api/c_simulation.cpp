@@ -36,6 +36,7 @@ void hand_over(const std::string& bytes, void* to, std::size_t capacity, std::si
 Control control_of(const tc_control* from, Simulation& seen,
                    std::function<void(std::size_t, double)> drive) {
   if (from == nullptr) return {};
+  check_struct(from);
   if (from->every != 0.0 && !(from->every > 0.0 && std::isfinite(from->every)))
     refuse("`every` must be a time > 0, or 0: every step end");
   for (std::size_t i = 0; i < from->driven_count; ++i)

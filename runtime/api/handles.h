@@ -102,6 +102,13 @@ double number_inside(const Handle* handle, const Body& body) noexcept {
   return number;
 }
 
+/// A struct that may grow says how large its caller knows it. @throws Fault where it does not
+template <class Struct>
+void check_struct(const Struct* options) {
+  if (options != nullptr && options->size < sizeof(Struct))
+    refuse("the first member of a struct of options must be its size");
+}
+
 /// @throws Fault unless `count` is `wanted`
 void check_size(std::size_t count, std::size_t wanted, const char* what);
 

@@ -40,6 +40,30 @@ std::vector<double> events_of(const Model& model, bool has_end) {
   return times;
 }
 
+/// A link whose mass is all of this tank's: slosh that drains with it. -1: there is none.
+int link_of(const Model& model, int tank) {
+  for (std::size_t i = 1; i < model.assembly.links.size(); ++i) {
+    const std::vector<MassElement>& elements = model.assembly.links[i].elements;
+    const auto is_of_tank = [tank](const MassElement& e) { return e.tank == tank; };
+    const auto weighs = [](const MassElement& e) { return e.mass > 0.0; };
+    if (std::ranges::any_of(elements, is_of_tank) &&
+        std::ranges::none_of(elements,
+                             [&](const MassElement& e) { return weighs(e) && !is_of_tank(e); }))
+      return static_cast<int>(i);
+  }
+  return -1;
+}
+
+/// Of a tank that must not run empty: what would have no mass left.
+std::vector<std::string> emptied_slosh(const Model& model) {
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < model.tanks.size(); ++k) {
+    const int link = link_of(model, static_cast<int>(k));
+    names.push_back(link < 0 ? "" : joint_name(model, static_cast<std::size_t>(link) - 1));
+  }
+  return names;
+}
+
 }  // namespace
 
 class Flight::BookkeepingOde final : public Ode {
@@ -100,7 +124,9 @@ Flight::Flight(Engine& engine, const Model& model, FlightOptions options)
           model.simulation.step,
           options.has_end ? model.simulation.duration : std::numeric_limits<double>::infinity(),
           events_of(model, options.has_end)),
-      feed_(model) {
+      feed_(model),
+      emptied_slosh_(emptied_slosh(model)) {
+  for (const Tank& tank : model.tanks) tank_names_.push_back(tank.name);
   hold(feed_.begin(0.0));
   std::ranges::copy(engine.initial_state(), stepper_.state().begin());
   if (options.steps_back) last_good_ = stepper_.solution();
@@ -147,6 +173,13 @@ void Flight::advance_to(double time) {
 }
 
 void Flight::fly_until_empty(const std::atomic<bool>* stop) {
+  const std::vector<Drain>& tanks = inputs().tanks;
+  for (std::size_t k = 0; k < tanks.size(); ++k)
+    if (tanks[k].empty_at() <= empty_at_ && !emptied_slosh_[k].empty())
+      throw NumericalFailure(
+          fmt::format("tank `{}` runs empty at t = {:.6g} s, where its slosh `{}` has no mass left",
+                      tank_names_[k], empty_at_, emptied_slosh_[k]),
+          emptied_slosh_[k]);
   if (empty_at_ > time_) step_to(empty_at_, stop);
   if (time_ >= empty_at_) hold(feed_.stop_empty(empty_at_));
 }

@@ -48,7 +48,8 @@ class Flight {
   const StepCounts& counts() const { return counts_; }
   const AcceptedErrors& accepted() const { return accepted_; }
 
-  /// To the next landing or to where a tank runs empty before it, or as far as an adaptive method
+  /// To the next landing or to where a tank runs empty before it (a failure where slosh drains with
+  /// the tank and would have no mass left), or as far as an adaptive method
   /// got when `*stop` became true.
   /// @throws NumericalFailure; the engine is then beyond its last good step unless it steps back.
   /// @pre not done()
@@ -114,7 +115,9 @@ class Flight {
   Landings landings_;
   InputFeed feed_;
   std::optional<RungeKutta::Solution> last_good_;  // of a flight that steps back
-  bool is_careful_ = false;                        // its steps are more than steps
+  std::vector<std::string> tank_names_;
+  std::vector<std::string> emptied_slosh_;  // of each tank: what has no mass when it is empty
+  bool is_careful_ = false;                 // its steps are more than steps
   double time_ = 0.0;
   double empty_at_ = 0.0;  // [s] when the first tank runs empty; infinite: none does
   StepCounts counts_;

@@ -90,6 +90,19 @@ TEST(CInterface, DrivesWhatAControllerNames) {
   EXPECT_EQ(sim.time(), 1.0);
 }
 
+TEST(CInterface, RefusesOptionsThatDoNotSayTheirSize) {
+  tc_load_options options{};
+  tc_model* model = nullptr;
+  const std::string spec = test::file("models/quickstart.yaml");
+  EXPECT_EQ(tc_model_load(spec.c_str(), &options, &model), TC_USAGE);
+  EXPECT_THAT(tc_model_error(model), HasSubstr("its size"));
+  tc_model_free(model);
+  Simulation sim(test::quickstart());
+  const tc_control control{};
+  EXPECT_EQ(tc_simulation_run_until(sim.handle(), 1.0, &control, nullptr), TC_USAGE);
+  EXPECT_EQ(sim.time(), 0.0);
+}
+
 TEST(CInterface, SaysHowLargeASnapshotIs) {
   Simulation sim(test::quickstart());
   std::size_t size = 0;

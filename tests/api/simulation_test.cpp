@@ -285,6 +285,22 @@ TEST_P(Simulations, StopWhatDrawsFromAnEmptyTank) {
   EXPECT_NEAR(sim.observe().back(), 1050.0 - 200.0 - burnt / (20.0 * 9.80665), 1e-9);
 }
 
+TEST_P(Simulations, EndWhereSloshWouldHaveNoMassLeft) {
+  Simulation sim = of(test::burn());
+  sim.drive("main_engine.thrust", 2000.0);
+  try {
+    sim.run_until(60.0);
+    FAIL() << "500 kg last 49 s";
+  } catch (const NumericalFailure& failure) {
+    EXPECT_THAT(failure.what(), HasSubstr("tank `fuel` runs empty at t = 49.03"));
+    EXPECT_EQ(failure.coordinate(), "blob");
+    EXPECT_NEAR(sim.time(), 49.02, 1e-12);
+  }
+  sim.reset();
+  sim.run_until(1.0);
+  EXPECT_EQ(sim.time(), 1.0);
+}
+
 INSTANTIATE_TEST_SUITE_P(Of, Simulations, testing::Values(Engine::bsm, Engine::mujoco),
                          [](const auto& param_info) {
                            return param_info.param == Engine::bsm ? "bsm" : "mujoco";
