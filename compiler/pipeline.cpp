@@ -2,7 +2,6 @@
 #include "compiler/pipeline.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <openssl/evp.h>
 
 #include <algorithm>
@@ -34,6 +33,7 @@ struct Tree {
   Node root;
   Origin origin;
   std::vector<Override> changes;  // of the command line, in `root` already
+  std::vector<std::string> files;
 };
 
 /// Text to syntax tree, with what it extends and with the command line's changes in it.
@@ -41,10 +41,11 @@ std::optional<Tree> load(const Source& source, const CompileRequest& request, So
                          Diagnostics& diagnostics) {
   std::optional<Node> root = parse(source, diagnostics);
   if (!root || diagnostics.has_errors()) return std::nullopt;
-  const std::optional<std::string> text_of_all =
+  std::optional<Extended> whole =
       resolve_extends(*root, source, request.file, sources, diagnostics);
-  if (!text_of_all || diagnostics.has_errors()) return std::nullopt;
-  Tree tree{std::move(*root), {source.name(), sha256(*text_of_all)}, {}};
+  if (!whole || diagnostics.has_errors()) return std::nullopt;
+  Tree tree{std::move(*root), {source.name(), sha256(whole->text)}, {}, std::move(whole->files)};
+  if (!request.text && request.file != "-") tree.files.insert(tree.files.begin(), request.file);
   for (const std::string& text : request.overrides) {
     std::optional<Override> change = parse_override(text, sources, diagnostics);
     if (!change) continue;
@@ -341,6 +342,8 @@ void LoadedSpec::check_members(Diagnostics& diagnostics, const MemberProgress& p
         Code::kStudyNotChecked, parts_->spec.study->span(),
         fmt::format("the first {} of the study's {} members were checked", checked, members));
 }
+
+const std::vector<std::string>& LoadedSpec::files() const { return parts_->tree.files; }
 
 Span LoadedSpec::simulation_span(std::string_view key) const {
   return parts_->spec.simulation.span_of(key);

@@ -56,6 +56,10 @@ class LoadedSpec {
   std::optional<Bundle> variant(const std::vector<std::string>& overrides, const Wanted& wanted,
                                 Diagnostics& diagnostics) const;
 
+  /// The files that it was read from: the spec, then those that it extends, in turn. A text and
+  /// standard input are no files.
+  const std::vector<std::string>& files() const;
+
   /// Where `simulation` has `key`, or what stands for it.
   Span simulation_span(std::string_view key) const;
 

@@ -62,5 +62,6 @@ void lower(const BodySpec& body, const Vehicle& vehicle, ModelBuilder& builder);
 
 Coordinates coordinates_of(const BodySpec& body);
 double mass_of(const BodySpec& body);
+inline std::string_view depth_key(const BodySpec&) { return "parent"; }
 
 }  // namespace twincraft

@@ -62,6 +62,7 @@ void lower(const PanelSpec& panel, const Vehicle& vehicle, ModelBuilder& builder
 
 Coordinates coordinates_of(const PanelSpec& panel);
 double mass_of(const PanelSpec& panel);
+inline std::string_view depth_key(const PanelSpec&) { return "segments"; }
 
 /// By the shortest period 2 pi sqrt((I + m d^2)/k) of one segment on one of the hinges.
 std::vector<Oscillator> oscillators_of(const std::vector<PanelSpec>& panels,

@@ -58,6 +58,12 @@ double mass_of(const T&) {
   return 0.0;
 }
 
+/// The key that says what it stands on, or that makes it as deep as it is.
+template <class T>
+std::string_view depth_key(const T&) {
+  return "mount";
+}
+
 /// Whether a point mass can have it.
 template <class T>
 bool fits_point_mass(const T&) {

@@ -5,19 +5,12 @@
 
 #include "compiler/emit/json.h"
 #include "compiler/ir/gravity_law.h"
+#include "compiler/ir/vector_json.h"
 
 namespace twincraft {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json vector_json(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
-
-Json matrix_json(const Matrix3d& m) {
-  Json rows = Json::array();
-  for (int i = 0; i < 3; ++i) rows.push_back(vector_json(m.row(i).transpose()));
-  return rows;
-}
 
 /// A zero that always held is written like an input that was never given: they are one machine.
 Json schedule_json(const Schedule& schedule) {

@@ -9,7 +9,6 @@
 #include "compiler/emit/mjcf.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <tinyxml2.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Rotations found by singular values. Those take seconds to compile, so they are compiled once.
+// Rotations found from directions and from matrices that are nearly rotations.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,5 +1,4 @@
 // AnyKind, and the kinds that combine other kinds. Tested by tests/compiler/kind_test.cpp.
-#include <algorithm>
 
 #include "compiler/schema/own_kind.h"
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "compiler/ir/vector_json.h"
 #include "compiler/schema/own_kind.h"
 #include "compiler/schema/table_info.h"
 
@@ -191,20 +192,10 @@ Kind<V> judged(const Kind<V>& kind, SiUnit si, const Usual& usual) {
   return Kind<V>(AnyKind(std::make_shared<JudgedKind>(kind, std::string(si), usual)));
 }
 
-Json write_vector(const Vector3d& vector) {
-  return Json::array({vector.x(), vector.y(), vector.z()});
-}
-
-Json write_rows(const Matrix3d& matrix) {
-  Json rows = Json::array();
-  for (const auto& row : matrix.rowwise()) rows.push_back(write_vector(row.transpose()));
-  return rows;
-}
-
 Json write_inertia(const Matrix3d& tensor) {
   const Vector3d moments = tensor.diagonal();
-  if (tensor == Matrix3d(moments.asDiagonal())) return write_vector(moments);
-  return write_rows(tensor);
+  if (tensor == Matrix3d(moments.asDiagonal())) return vector_json(moments);
+  return matrix_json(tensor);
 }
 
 }  // namespace
@@ -284,7 +275,7 @@ Kind<Vector3d> vector3(SiUnit si) {
         return read_three(*listing->list, context, fmt::format("three quantities [{}]", unit),
                           read_entry);
       },
-      .write = write_vector,
+      .write = vector_json,
   });
   return judged(kind, si, usual_of(si));  // of `{value: .., unit: ..}` nothing is bare
 }
@@ -294,7 +285,7 @@ Kind<Vector3d> direction() {
       .text = "direction [x, y, z]",
       .schema = list_schema(number_schema(Range::kAny), 3, 3),
       .read = read_direction,
-      .write = write_vector,
+      .write = vector_json,
   });
 }
 
@@ -316,7 +307,7 @@ Kind<Matrix3d> matrix3() {
       .read = [](const Node& node, ReadContext& context) -> std::optional<Matrix3d> {
         return read_rows(node, context, read_number);
       },
-      .write = write_rows,
+      .write = matrix_json,
   });
 }
 

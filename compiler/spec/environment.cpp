@@ -1,7 +1,6 @@
 // See environment.h. Tested by tests/compiler/engines_test.cpp.
 #include "compiler/spec/environment.h"
 
-#include <string>
 #include <utility>
 #include <vector>
 

@@ -46,29 +46,15 @@ void check_what_tokens_leave(const Spec& spec, const Model& model, Diagnostics& 
   }
 }
 
-/// What makes the component whose tree body is `name` as deep as it is.
-Span place_of(const Spec& spec, const std::string& name) {
-  const std::string component = name.substr(0, name.find('.'));  // of `wing.96`
-  for (const PanelSpec& panel : spec.panels) {
-    if (panel.name == component) return panel.span_of("segments");
-  }
-  for (const BodySpec& body : spec.bodies) {
-    if (body.name == component) return body.span_of("parent");
-  }
-  for (const WheelSpec& wheel : spec.wheels) {
-    if (wheel.name == component) return wheel.span_of("mount");
-  }
-  return spec.span();
-}
-
 /// Once for every branch that grows too deep, at the first body that is.
 void warn_of_depth(const Spec& spec, const Model& model, Diagnostics& diagnostics) {
   const std::vector<int> depths = depths_of(model.tree);
   for (std::size_t i = 0; i < depths.size(); ++i) {
     if (depths[i] != kMaximumTreeDepth + 1) continue;
     const std::string& name = model.tree.bodies[i].name;
+    const std::string component = name.substr(0, name.find('.'));  // of `wing.96`
     diagnostics.warning(
-        Code::kChainTooDeep, place_of(spec, name),
+        Code::kChainTooDeep, depth_span(spec, component).value_or(spec.span()),
         fmt::format("`{}` is body {} of a chain, and MuJoCo loads chains of {}: the analytic "
                     "engine goes on alone",
                     name, depths[i], kMaximumTreeDepth));

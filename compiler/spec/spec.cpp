@@ -5,8 +5,6 @@
 
 #include <algorithm>
 
-#include "compiler/ir/number.h"
-
 namespace twincraft {
 namespace {
 

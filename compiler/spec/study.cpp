@@ -2,7 +2,6 @@
 #include "compiler/spec/study.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 

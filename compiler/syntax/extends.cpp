@@ -97,6 +97,7 @@ class Resolver {
   }
 
   const std::string& texts() const { return texts_; }
+  const std::vector<std::string>& files() const { return files_; }
 
  private:
   static fs::path folder_of(const fs::path& file) {
@@ -177,6 +178,9 @@ class Resolver {
     }
     const Source& source = sources_.add(place.shown.string(), std::move(file.text));
     texts_ += source.text();
+    std::error_code fault;  // `..` after a link to a folder leads elsewhere than it reads
+    const bool is_shown = fs::equivalent(place.shown, place.actual, fault);
+    files_.push_back(is_shown ? source.name() : place.actual.string());
     return parse(source, diagnostics_);
   }
 
@@ -262,15 +266,15 @@ class Resolver {
   fs::path tree_;
   std::vector<fs::path> chain_;  // from the compiled file on
   std::string texts_;
+  std::vector<std::string> files_;
 };
 
 }  // namespace
 
-std::optional<std::string> resolve_extends(Node& root, const Source& source,
-                                           const std::string& file, Sources& sources,
-                                           Diagnostics& diagnostics) {
+std::optional<Extended> resolve_extends(Node& root, const Source& source, const std::string& file,
+                                        Sources& sources, Diagnostics& diagnostics) {
   const Node* target = root.find("extends");
-  if (target == nullptr && root.find("drop") == nullptr) return source.text();
+  if (target == nullptr && root.find("drop") == nullptr) return Extended{source.text(), {}};
   if (target != nullptr && file == "-") {
     diagnostics
         .error(Code::kExtendsNowhere, target->span,
@@ -280,7 +284,7 @@ std::optional<std::string> resolve_extends(Node& root, const Source& source,
   }
   Resolver resolver(sources, diagnostics);
   if (!resolver.start(root, file)) return std::nullopt;
-  return source.text() + resolver.texts();
+  return Extended{source.text() + resolver.texts(), resolver.files()};
 }
 
 bool refuse_late_extends(const Node& root, Diagnostics& diagnostics) {

@@ -14,6 +14,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "compiler/diag/diagnostics.h"
 #include "compiler/syntax/node.h"
@@ -23,13 +24,18 @@ namespace twincraft {
 inline constexpr std::size_t kMaximumExtends = 16;  // files below the one that is compiled
 inline constexpr const char* kTreeMarker = ".twincraft";
 
+/// What a spec is made of.
+struct Extended {
+  std::string text;                // of the spec, followed by that of each file down the chain
+  std::vector<std::string> files;  // of the chain, without the spec itself
+};
+
 /// Merge into `root` all that it extends, and take `extends` and `drop` out of it. Faults are
 /// diagnostics, at the value of `extends` or the name to be dropped.
 /// @param file  the path of `source`; `-`, standard input, is in no folder and extends nothing
-/// @return the text of `source`, followed by that of each file down the chain; nothing on a fault
-std::optional<std::string> resolve_extends(Node& root, const Source& source,
-                                           const std::string& file, Sources& sources,
-                                           Diagnostics& diagnostics);
+/// @return nothing on a fault
+std::optional<Extended> resolve_extends(Node& root, const Source& source, const std::string& file,
+                                        Sources& sources, Diagnostics& diagnostics);
 
 /// Whether `root` is free of `extends` and `drop`. After resolve_extends() only an override can
 /// have brought them; it is told that it comes too late.

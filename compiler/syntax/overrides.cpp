@@ -3,7 +3,6 @@
 #include "compiler/syntax/overrides.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 

@@ -76,32 +76,34 @@ class Batch::Together final : public Group {
 /// A member that the lanes do not serve: its steps or its masses are its own.
 class Batch::Alone final : public Group {
  public:
-  explicit Alone(std::shared_ptr<const CompiledModel> model)
-      : simulation_(std::move(model), EngineKind::kBsm) {}
+  /// @param like  a member of the same model
+  explicit Alone(const Simulation& like) : simulation_(like.copy()) {}
 
-  double time() const override { return simulation_.time(); }
+  double time() const override { return simulation_->time(); }
   void step(std::size_t count) override {
     if (!failure_.empty()) return;
     try {
-      simulation_.step(count);
+      simulation_->step(count);
     } catch (const NumericalFailure& failure) {
       failure_ = failure.what();
     }
   }
-  void observe(std::size_t, Engine&, Observation& seen) override { seen = simulation_.observe(); }
+  void observe(std::size_t, Engine&, Observation& seen) override { seen = simulation_->observe(); }
   void set_state(std::size_t, std::span<const double> numbers) override {
-    simulation_.set_state(numbers);
+    simulation_->set_state(numbers);
     failure_.clear();
   }
-  double input(std::size_t, std::size_t port) const override { return simulation_.input(port); }
-  void drive(std::size_t, std::span<const double> values) override { simulation_.drive(0, values); }
+  double input(std::size_t, std::size_t port) const override { return simulation_->input(port); }
+  void drive(std::size_t, std::span<const double> values) override {
+    simulation_->drive(0, values);
+  }
   void release(std::size_t, std::size_t ports) override {
-    for (std::size_t i = 0; i < ports; ++i) simulation_.release(i);
+    for (std::size_t i = 0; i < ports; ++i) simulation_->release(i);
   }
   const std::string& failure(std::size_t) const override { return failure_; }
 
  private:
-  Simulation simulation_;
+  std::unique_ptr<Simulation> simulation_;
   std::string failure_;
 };
 
@@ -129,11 +131,13 @@ Batch::Batch(std::shared_ptr<const CompiledModel> model, std::size_t count, std:
     plan_ = std::make_unique<bsm::Plan>(bsm::make_plan(m.assembly, m.engines.attitude, m.gravity,
                                                        m.loads, m.engines.chains, m.forces));
   }
-  for (std::size_t first = 0; first < count; first += per_group_) {
-    if (plan_)
+  const std::size_t groups = (count + per_group_ - 1) / per_group_;
+  if (plan_) {
+    for (std::size_t i = 0; i < groups; ++i)
       groups_.push_back(std::make_unique<Together>(*model_, *plan_));
-    else
-      groups_.push_back(std::make_unique<Alone>(model_));
+  } else {
+    const Simulation first(model_, EngineKind::kBsm);
+    for (std::size_t i = 0; i < groups; ++i) groups_.push_back(std::make_unique<Alone>(first));
   }
 }
 

@@ -62,7 +62,6 @@ tc_status attempt(std::string& error, const Body& body) noexcept {
   };
   try {
     body();
-    error.clear();
     return TC_OK;
   } catch (const Fault& fault) {
     return say(fault.status(), fault.what());

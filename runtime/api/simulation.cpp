@@ -36,15 +36,19 @@ void check_target(double time, double now, double tolerance) {
 }
 
 Simulation::Simulation(std::shared_ptr<const CompiledModel> model, EngineKind engine)
+    : Simulation(model, engine, engine_of(*model, engine)) {}
+
+Simulation::Simulation(std::shared_ptr<const CompiledModel> model, EngineKind kind,
+                       std::unique_ptr<Engine> engine)
     : model_(std::move(model)),
-      kind_(engine),
-      engine_(engine_of(*model_, engine)),
+      kind_(kind),
+      engine_(std::move(engine)),
       flight_(std::make_unique<Flight>(*engine_, model_->model(),
                                        FlightOptions{.has_end = false, .steps_back = true})),
       start_(flight_->snapshot()) {}
 
 std::unique_ptr<Simulation> Simulation::copy() const {
-  auto other = std::make_unique<Simulation>(model_, kind_);
+  std::unique_ptr<Simulation> other(new Simulation(model_, kind_, engine_->another()));
   other->go_on_from(flight_->snapshot());
   return other;
 }

@@ -77,6 +77,9 @@ class Simulation {
   void go_on_from(const Flight::Snapshot& snapshot);
 
  private:
+  Simulation(std::shared_ptr<const CompiledModel> model, EngineKind kind,
+             std::unique_ptr<Engine> engine);
+
   std::shared_ptr<const CompiledModel> model_;
   EngineKind kind_;
   std::unique_ptr<Engine> engine_;

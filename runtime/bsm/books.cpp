@@ -4,30 +4,21 @@
 namespace twincraft::bsm {
 namespace {
 
+/// How an element moves, with the velocity of B taken as zero.
 struct MovingElement {
   double mass;
   Vector3d r_EB, v_E, spin;  // [m], [m/s], [kg m^2/s] angular momentum about its own centre
   double spin_energy;        // [J]
 };
 
-/// @param share  of its tank
-MovingElement moving(const MassElement& element, double share, const LinkPose& pose,
-                     const LinkRate& rate) {
-  const Vector3d r_EL = pose.dcm_WL * element.r_EL_L;
+MovingElement moving(const Elements::Placed& element, const Motion& motion) {
+  const LinkPose& pose = motion.poses[element.link];
+  const LinkRate& rate = motion.rates[element.link];
+  const Vector3d r_EL = pose.dcm_WL * element.r_EL_L();
   const Vector3d omega_L = pose.dcm_WL.transpose() * rate.omega_LN_W;
-  const Vector3d spin_L = share * element.I_PntE_L * omega_L;
-  return {share * element.mass, pose.r_LB_W + r_EL, rate.v_LB_W + rate.omega_LN_W.cross(r_EL),
+  const Vector3d spin_L = element.I_PntE_L() * omega_L;
+  return {element.mass, pose.r_LB_W + r_EL, rate.v_LB_W + rate.omega_LN_W.cross(r_EL),
           pose.dcm_WL * spin_L, 0.5 * omega_L.dot(spin_L)};
-}
-
-/// @param visit  takes every element as it moves
-template <class Visit>
-void for_each_moving(const Motion& motion, const Assembly& assembly, std::span<const double> shares,
-                     const Visit& visit) {
-  for (std::size_t i = 0; i < assembly.links.size(); ++i)
-    for (const MassElement& element : assembly.links[i].elements)
-      visit(moving(element, element.tank < 0 ? 1.0 : shares[static_cast<std::size_t>(element.tank)],
-                   motion.poses[i], motion.rates[i]));
 }
 
 /// What a link's loss is more than that of a point at its origin.
@@ -70,28 +61,30 @@ Center center_of(const Tree& tree, const Motion& motion) {
   return center;
 }
 
-Totals sum_up(const Motion& motion, const Assembly& assembly, std::span<const double> shares,
+Totals sum_up(const Motion& motion, const Elements& elements, const Tree& tree,
               std::span<const double> rotor_speed) {
   Totals totals;
   Vector3d momentum_B = Vector3d::Zero();
-  for_each_moving(motion, assembly, shares, [&](const MovingElement& e) {
+  for (const Elements::Placed& element : elements) {
+    const MovingElement e = moving(element, motion);
     totals.mass += e.mass;
     totals.r_CB_B += e.mass * e.r_EB;
     momentum_B += e.mass * e.v_E;
-  });
+  }
   totals.r_CB_B /= totals.mass;
   totals.v_CB_B = momentum_B / totals.mass;
-  for_each_moving(motion, assembly, shares, [&](const MovingElement& e) {
+  for (const Elements::Placed& element : elements) {
+    const MovingElement e = moving(element, motion);
     const Vector3d v_EC = e.v_E - totals.v_CB_B;
     const Vector3d H = (e.r_EB - totals.r_CB_B).cross(e.mass * v_EC) + e.spin;
     totals.H_PntC_B += H;
     totals.H_scale += H.norm();
     totals.momentum_scale += e.mass * e.v_E.norm();
     totals.kinetic += 0.5 * e.mass * v_EC.squaredNorm() + e.spin_energy;
-  });
+  }
   // The elements carry a wheel's whole tensor at the mount's rate; its own spin comes on top.
-  for (std::size_t k = 0; k < assembly.rotors.size(); ++k) {
-    const Rotor& rotor = assembly.rotors[k];
+  for (std::size_t k = 0; k < tree.rotors.size(); ++k) {
+    const RotorConstants& rotor = tree.rotors[k];
     const auto i = static_cast<std::size_t>(rotor.link);
     const Vector3d axis = motion.poses[i].dcm_WL * rotor.axis_L;
     const double spin = rotor.spin_inertia * rotor_speed[k];

@@ -4,6 +4,7 @@
 
 #include "runtime/bsm/motion.h"
 #include "runtime/engine/observation.h"
+#include "runtime/forces/elements.h"
 
 namespace twincraft::bsm {
 
@@ -22,8 +23,7 @@ struct Totals : Center {
   double momentum_scale = 0.0, H_scale = 0.0;  // sums of magnitudes
 };
 
-/// @param shares  of every tank
-Totals sum_up(const Motion& motion, const Assembly& assembly, std::span<const double> shares,
+Totals sum_up(const Motion& motion, const Elements& elements, const Tree& tree,
               std::span<const double> rotor_speed);
 
 /// What leaves the books because mass leaves the vehicle: their rates at fixed motion. The velocity

@@ -177,7 +177,7 @@ class Chain {
     S J{};
     S stiffness{}, damping{}, rest{}, effort{};
     Places<H, S> position{}, rate{};
-    std::vector<Pulled<S>> elements;
+    std::vector<ElementNow<S>> elements;
   };
   struct Motion {
     S cosine, sine;  // of Theta
@@ -231,7 +231,7 @@ class Chain {
     return law_about_root([&](std::size_t i) {
       const Motion& m = motions_[i];
       Pull<S> sum;
-      for (const Pulled<S>& element : links_[i].elements) {
+      for (const ElementNow<S>& element : links_[i].elements) {
         const Vec2<S> at = turned(in_plane(element.r_EL), m.cosine, m.sine);
         const Vec<S> r_EH{at.x, element.r_EL.y, at.z};
         const Vec<S> place = r_HB_C + Vec<S>{m.r.x, S(0.0), m.r.z} + r_EH;

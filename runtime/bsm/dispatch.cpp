@@ -1,6 +1,5 @@
 // The kernel's instruction sets: which there are, and which this processor has.
 // Tested by tests/runtime/kernel_test.cpp.
-#include <algorithm>
 #include <array>
 
 #include "runtime/bsm/kernel.h"

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <utility>
 
 #include "runtime/bsm/books.h"
 #include "runtime/bsm/kernel.h"
@@ -22,47 +21,70 @@ std::vector<std::vector<MassElement>> elements_of(const Assembly& assembly) {
   return elements;
 }
 
+/// What the engines of one model share: none of it ever changes.
+struct Machine {
+  explicit Machine(const Model& model)
+      : assembly(model.assembly),
+        initial(model.initial),
+        loads(model.loads),
+        start(inputs_at(model, 0.0)),
+        layout{model.engines.attitude, static_cast<int>(model.assembly.links.size()) - 1,
+               static_cast<int>(model.assembly.rotors.size())},
+        plan(make_plan(model.assembly, model.engines.attitude, model.gravity, model.loads,
+                       model.engines.chains, model.forces)),
+        propellant(model.tanks),
+        forces(model, model.gravity.bsm, elements_of(model.assembly), FieldFrame::kFalling),
+        elements(elements_of(model.assembly), [](const MassElement&) { return true; }) {}
+
+  Assembly assembly;
+  VehicleState initial;
+  std::vector<Load> loads;
+  Inputs start;  // of t = 0
+  StateLayout layout;
+  Plan plan;
+  // As at t = 0: each engine begins with a copy.
+  PropellantLedger propellant;
+  ForceModel forces;
+  Elements elements;
+};
+
 class BsmEngine final : public Engine {
  public:
-  BsmEngine(const Model& model, InstructionSet set)
-      : assembly_(model.assembly),
-        initial_(model.initial),
-        loads_(model.loads),
-        propellant_(model.tanks),
-        shares_(propellant_.shares(0.0)),
-        forces_(model, model.gravity.bsm, elements_of(model.assembly), FieldFrame::kFalling),
-        layout_{model.engines.attitude, static_cast<int>(model.assembly.links.size()) - 1,
-                static_cast<int>(model.assembly.rotors.size())},
-        held_(HeldInputs::none(model.assembly)),
-        plan_(make_plan(model.assembly, model.engines.attitude, model.gravity, model.loads,
-                        model.engines.chains, model.forces)),
-        kernel_(make_kernel(plan_, set)),
-        link_forces_(plan_.forces, inputs_at(model, 0.0)),
-        motion_(at_rest(plan_.tree)),
-        wrenches_(plan_.tree.links.size()) {
-    BsmEngine::hold(inputs_at(model, 0.0));
+  BsmEngine(std::shared_ptr<const Machine> machine, InstructionSet set)
+      : machine_(std::move(machine)),
+        set_(set),
+        kernel_(make_kernel(machine_->plan, set)),
+        held_(HeldInputs::none(machine_->assembly)),
+        propellant_(machine_->propellant),
+        forces_(machine_->forces),
+        link_forces_(machine_->plan.forces, machine_->start),
+        tree_(machine_->plan.tree),
+        elements_(machine_->elements),
+        motion_(at_rest(tree_)),
+        wrenches_(tree_.links.size()) {
+    BsmEngine::hold(machine_->start);
   }
 
   std::string_view name() const override { return kBsmKey; }
-  const StateLayout& layout() const override { return layout_; }
+  const StateLayout& layout() const override { return machine_->layout; }
+  std::unique_ptr<Engine> another() const override {
+    return std::make_unique<BsmEngine>(machine_, set_);
+  }
 
-  Eigen::VectorXd initial_state() const override { return pack(initial_, layout_); }
+  Eigen::VectorXd initial_state() const override { return pack(machine_->initial, layout()); }
 
   void hold(const Inputs& inputs) override {
-    held_.set(inputs, loads_);
+    held_.set(inputs, machine_->loads);
     forces_.hold(inputs);
     propellant_.hold(inputs);
     link_forces_.hold(inputs);
-    const Plan* plan = &plan_;
     const HeldInputs* held = &held_;
-    kernel_->hold({&plan, 1}, {&held, 1});
+    kernel_->hold({&held, 1});
     drained_to_ = std::numeric_limits<double>::quiet_NaN();
-    drain(inputs.since);
   }
 
   void derivative(double time, std::span<const double> state, std::span<double> rate,
                   BookRates* books) override {
-    drain(time);
     if (books != nullptr) return evaluate_and_book(time, state, rate, *books);
     kernel_->derivative(time, state.data(), rate.data());
   }
@@ -70,25 +92,26 @@ class BsmEngine final : public Engine {
   void finish_step(std::span<double> state) override { kernel_->finish_step(state.data()); }
 
   void observe(double time, std::span<const double> state, Observation& seen) override {
-    drain_all(time);
+    drain(time);
     const State x = read(state);
     assign(x, seen);
     seen.time = time;
-    move_links(plan_.tree, x.joint_position, x.joint_rate, x.omega_BN_B, motion_);
-    fill_books(sum_up(motion_, assembly_, shares_, x.wheel_rate), x.dcm_NB, seen);
-    seen.springs = spring_energy(plan_.tree, x.joint_position);
+    move_links(tree_, x.joint_position, x.joint_rate, x.omega_BN_B, motion_);
+    fill_books(sum_up(motion_, elements_, tree_, x.wheel_rate), x.dcm_NB, seen);
+    seen.springs = spring_energy(tree_, x.joint_position);
     seen.potential = seen.springs + forces_.potential(x.r_BN_B(), motion_.poses);
   }
 
   Eigen::MatrixXd mass_matrix(std::span<const double> state) override {
+    drain(held_.inputs.since);
     const State x = read(state);
-    return dense_mass_matrix(
-        plan_.tree, motion_of(plan_.tree, x.joint_position, x.joint_rate, x.omega_BN_B), x.dcm_NB);
+    return dense_mass_matrix(tree_, motion_of(tree_, x.joint_position, x.joint_rate, x.omega_BN_B),
+                             x.dcm_NB);
   }
 
   HeldMachine held() const override {
     HeldMachine machine;
-    for (const Link& link : assembly_.links) {
+    for (const Link& link : machine_->assembly.links) {
       HeldLink held;
       for (const MassElement& element : link.elements)
         held.mass = held.mass + properties_of(element);
@@ -104,7 +127,7 @@ class BsmEngine final : public Engine {
       }
       machine.links.push_back(held);
     }
-    for (const Rotor& rotor : assembly_.rotors)
+    for (const Rotor& rotor : machine_->assembly.rotors)
       machine.wheels.push_back({rotor.axis_L, rotor.spin_inertia});
     return machine;
   }
@@ -125,18 +148,17 @@ class BsmEngine final : public Engine {
   }
 
   BookRates book_rates(double time, std::span<const double> state) {
-    drain_all(time);
+    drain(time);
     const State x = read(state);
-    const double inner_power =
-        joint_power(plan_.tree, x.joint_position, x.joint_rate, held_.effort) +
-        motor_power(x.wheel_rate, held_.motor_torque);
+    const double inner_power = joint_power(tree_, x.joint_position, x.joint_rate, held_.effort) +
+                               motor_power(x.wheel_rate, held_.motor_torque);
     BookRates rates{.power = inner_power, .own_power = inner_power};
     if (!acts() && !forces_.falls_as_a_whole() && propellant_.is_idle()) {
-      rates.force_N = plan_.mass() * forces_.fall(x.r_BN_N, x.dcm_NB, motion_.poses);
+      rates.force_N = machine_->plan.mass() * forces_.fall(x.r_BN_N, x.dcm_NB, motion_.poses);
       return rates;
     }
-    move_links(plan_.tree, x.joint_position, x.joint_rate, x.omega_BN_B, motion_);
-    const Center center = center_of(plan_.tree, motion_);
+    move_links(tree_, x.joint_position, x.joint_rate, x.omega_BN_B, motion_);
+    const Center center = center_of(tree_, motion_);
     rates.force_N = center.mass * forces_.fall(x.r_BN_N, x.dcm_NB, motion_.poses);
     if (acts()) add_forces(time, x, center, rates);
     if (!propellant_.is_idle()) add_leaving(x, center, rates);
@@ -174,7 +196,7 @@ class BsmEngine final : public Engine {
   void add_leaving(const State& x, const Center& center, BookRates& rates) const {
     const std::span<const double> share_rates = propellant_.share_rates();
     const Vector3d v_BN_B = x.v_BN_B();
-    const Leaving leaving = sum_up_leaving(motion_, plan_.tree, share_rates, center);
+    const Leaving leaving = sum_up_leaving(motion_, tree_, share_rates, center);
     rates.power += leaving.kinetic + leaving.momentum_B.dot(v_BN_B) +
                    0.5 * leaving.mass * v_BN_B.squaredNorm() +
                    forces_.potential_rate(x.r_BN_B(), motion_.poses, share_rates);
@@ -185,39 +207,32 @@ class BsmEngine final : public Engine {
   }
 
   State read(std::span<const double> state) const {
-    const UnpackedState x = unpack(state, layout_);
+    const UnpackedState x = unpack(state, layout());
     return {x, x.q_BN.toRotationMatrix()};
   }
 
-  /// What depends on mass follows the tanks: in a step the kernel alone, else all.
+  /// Let the masses of observations and books be those that the tanks leave; the kernel has its
+  /// own.
   void drain(double time) {
-    if (!propellant_.is_idle() && time != drained_to_) drain_to(time);
-  }
-  [[gnu::noinline]] void drain_to(double time) {
+    if (propellant_.is_idle() || time == drained_to_) return;
     drained_to_ = time;
-    shares_ = propellant_.shares(time);
-    plan_.set_shares(shares_);
-    const Plan* plan = &plan_;
-    kernel_->set_masses({&plan, 1});
-  }
-  void drain_all(double time) {
-    drain(time);
-    if (!propellant_.is_idle()) forces_.set_shares(shares_);
+    const std::span<const double> shares = propellant_.shares(time);
+    set_shares(tree_, shares);
+    elements_.set_shares(shares);
+    forces_.set_shares(shares);
   }
 
-  Assembly assembly_;
-  VehicleState initial_;
-  std::vector<Load> loads_;
-  PropellantLedger propellant_;
-  std::span<const double> shares_;
-  double drained_to_ = 0.0;  // [s] the time the kernel's masses are of; NaN: of none
-  ForceModel forces_;
-  StateLayout layout_;
-  HeldInputs held_;
-  Plan plan_;
+  std::shared_ptr<const Machine> machine_;
+  InstructionSet set_;
   std::unique_ptr<Kernel> kernel_;
-  LinkForces link_forces_;  // for the books; the kernel has its own
-  // For observations and books.
+  HeldInputs held_;
+  // For observations and books; the kernel has its own forces and masses.
+  PropellantLedger propellant_;
+  ForceModel forces_;
+  LinkForces link_forces_;
+  Tree tree_;                // with the masses at drained_to_
+  Elements elements_;        // so too
+  double drained_to_ = 0.0;  // [s] NaN: at no time
   Motion motion_;
   std::vector<Wrench> wrenches_;
 };
@@ -227,7 +242,7 @@ class BsmEngine final : public Engine {
 
 std::unique_ptr<Engine> make_bsm_engine(const Model& model, bsm::InstructionSet set) {
   if (model.simulation.translation) return bsm::make_point_mass_engine(model);
-  return std::make_unique<bsm::BsmEngine>(model, set);
+  return std::make_unique<bsm::BsmEngine>(std::make_shared<const bsm::Machine>(model), set);
 }
 
 }  // namespace twincraft

@@ -13,10 +13,7 @@ class VehicleKernel final : public Kernel {
   explicit VehicleKernel(std::span<const Plan* const> plans) : vehicle_(plans) {}
 
   std::size_t lanes() const override { return kLanes<H>; }
-  void set_masses(std::span<const Plan* const> plans) override { vehicle_.set_masses(plans); }
-  void hold(std::span<const Plan* const> plans, std::span<const HeldInputs* const> held) override {
-    vehicle_.hold(plans, held);
-  }
+  void hold(std::span<const HeldInputs* const> held) override { vehicle_.hold(held); }
   void derivative(double time, const double* state, double* rate) override {
     vehicle_.derivative(time, state, rate);
   }

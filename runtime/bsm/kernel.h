@@ -21,12 +21,10 @@ class Kernel {
   /// How many spacecraft the state holds side by side: entry i of spacecraft l is at i * lanes + l.
   virtual std::size_t lanes() const = 0;
 
-  /// Read the masses of what drains again. @param plans  one per lane, as at construction
-  virtual void set_masses(std::span<const Plan* const> plans) = 0;
-  /// Hold these inputs from now on, one per lane.
-  virtual void hold(std::span<const Plan* const> plans,
-                    std::span<const HeldInputs* const> held) = 0;
-  /// rate = d(state)/dt at `time` [s], laid out as runtime/engine/state.h says.
+  /// Hold these inputs from now on, one per lane. They may change or go afterwards.
+  virtual void hold(std::span<const HeldInputs* const> held) = 0;
+  /// rate = d(state)/dt at `time` [s], laid out as runtime/engine/state.h says. Tanks are as full
+  /// as they are then, under the flows that are held.
   virtual void derivative(double time, const double* state, double* rate) = 0;
   /// MRP shadow switch or quaternion normalisation, in place.
   virtual void finish_step(double* state) const = 0;
@@ -44,12 +42,13 @@ InstructionSet best_instruction_set();
 /// All that it has.
 std::vector<InstructionSet> instruction_sets();
 
-/// One spacecraft. @pre the processor has `set`
+/// One spacecraft. @pre the processor has `set`, and the plan outlives the kernel
 std::unique_ptr<Kernel> make_kernel(const Plan& plan, InstructionSet set = best_instruction_set());
 
 /// How many spacecraft a batch steps at once.
 std::size_t batch_lanes(InstructionSet set);
-/// As many spacecraft of one structure as there are lanes; their constants may differ.
+/// As many spacecraft of one structure as there are lanes; their constants may differ. The plans
+/// outlive the kernel.
 std::unique_ptr<Kernel> make_batch_kernel(std::span<const Plan* const> plans, InstructionSet set);
 
 }  // namespace twincraft::bsm

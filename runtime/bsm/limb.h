@@ -6,52 +6,13 @@
 #include <vector>
 
 #include "runtime/bsm/chain.h"
+#include "runtime/bsm/draining.h"
 #include "runtime/bsm/law.h"
 #include "runtime/bsm/parts.h"
 #include "runtime/bsm/plan.h"
+#include "runtime/bsm/rotor.h"
 
 namespace twincraft::bsm::TWINCRAFT_KERNEL {
-
-/// A balanced wheel on a link.
-template <class H, class S>
-struct RotorOn {
-  Vec<S> axis_L;
-  S spin_inertia{}, motor_torque{};
-  S spin_up{};  // [rad/s^2] what the motor gives a wheel on a mount at rest
-  Places<H, S> speed{};
-
-  void hold(std::size_t l, double torque) {
-    set_lane(motor_torque, l, torque);
-    set_lane(spin_up, l, torque / lane(spin_inertia, l));
-  }
-  void set(std::size_t l, const RotorConstants& from, int place) {
-    set_lane(axis_L, l, from.axis_L);
-    set_lane(spin_inertia, l, from.spin_inertia);
-    speed[l % kLimbs<H, S>] = place;
-  }
-};
-
-/// The mass of a link; what drains changes.
-template <class S>
-struct LinkMass {
-  S mass{};
-  Vec<S> moment;  // [kg m] mass times the centre of mass from the link's origin, link axes
-  Sym<S> J;       // [kg m^2] about the origin, without the axial inertia of rotors
-
-  using Constants = std::array<const bsm::LinkConstants*, kLanes<S>>;
-
-  void set(const Constants& of) {
-    mass = from_lanes<S>([&of](std::size_t l) { return of[l]->mass; });
-    const auto moments = [&of](std::size_t i) {
-      return from_lanes<S>([&of, i](std::size_t l) { return of[l]->first_moment.data()[i]; });
-    };
-    moment = {moments(0), moments(1), moments(2)};
-    const auto inertia = [&of](std::size_t i) {
-      return from_lanes<S>([&of, i](std::size_t l) { return of[l]->J_L.data()[i]; });
-    };
-    J = {inertia(0), inertia(4), inertia(8), inertia(1), inertia(2), inertia(5)};
-  }
-};
 
 template <class H, class S>
 class Limb {
@@ -67,7 +28,9 @@ class Limb {
     recoveries_.resize(first.links.size());
     for (std::size_t l = 0; l < lanes.size(); ++l) set(l, *lanes[l], *plans[l], layout);
     for (std::size_t i = 0; i < links_.size(); ++i) {
-      links_[i].mass.set(constants_of(i, lanes, plans));
+      LinkDrain<H, S> drain;
+      for (std::size_t l = 0; l < lanes.size(); ++l) drain.set(l, *plans[l], lanes[l]->links[i]);
+      if (drain.drains()) draining_.push_back({i, drain});
     }
     for (std::size_t c = 0; c < first.chains.size(); ++c) {
       std::array<const ChainPlan*, kLanes<S>> of_lanes;
@@ -76,18 +39,12 @@ class Limb {
     }
   }
 
-  void set_masses(Lanes lanes, Plans plans) {
-    for (std::size_t i = 0; i < links_.size(); ++i) {
-      const auto of = constants_of(i, lanes, plans);
-      bool drains = false;
-      for (const bsm::LinkConstants* constants : of) drains = drains || constants->drains;
-      if (!drains) continue;
-      links_[i].mass.set(of);
-      for (std::size_t e = 0; e < links_[i].elements.size(); ++e) {
-        for (std::size_t l = 0; l < kLanes<S>; ++l) {
-          links_[i].elements[e].set_mass(l, lanes[l]->links.data()[i].elements.data()[e]);
-        }
-      }
+  /// Let masses be those that the tanks leave.
+  void drain(const Tanks<H>& tanks) {
+    for (const DrainingLink& draining : draining_) {
+      Link& link = links_[draining.link];
+      link.mass = draining.drain.mass(tanks);
+      draining.drain.put_elements(tanks, link.elements);
     }
   }
 
@@ -192,7 +149,7 @@ class Limb {
     Vec<S> held_at_center;  // [N] link axes
     LinkMass<S> mass;
     Places<H, S> position{}, rate{};
-    std::vector<Pulled<S>> elements;
+    std::vector<ElementNow<S>> elements;
     std::vector<RotorOn<H, S>> rotors;
   };
   struct Motion {
@@ -209,20 +166,15 @@ class Limb {
     Vec<S> omega_dot, a;
     Pull<S> pushed;  // about the origin, by forces that follow the motion
   };
+  struct DrainingLink {
+    std::size_t link = 0;
+    LinkDrain<H, S> drain;
+  };
   /// qDDot = gain - gain_n . omegaDot_P - gain_f . a', a' the parent's acceleration at the joint.
   struct Recovery {
     S gain;
     Vec<S> gain_n, gain_f;
   };
-
-  /// Of link i in every lane.
-  static typename LinkMass<S>::Constants constants_of(std::size_t i, Lanes lanes, Plans plans) {
-    typename LinkMass<S>::Constants of{};
-    for (std::size_t l = 0; l < kLanes<S>; ++l) {
-      of[l] = &plans[l]->tree.links.data()[lanes[l]->links.data()[i].link];
-    }
-    return of;
-  }
 
   static std::size_t index(int i) { return static_cast<std::size_t>(i); }
   const MountMotion<S>& mount(int i) const { return i < 0 ? hub_ : motions_[index(i)].at; }
@@ -251,6 +203,7 @@ class Limb {
       set_lane(link.stiffness, l, constants.stiffness);
       set_lane(link.damping, l, constants.damping);
       set_lane(link.rest, l, constants.rest);
+      link.mass.set(l, constants);
       link.is_massless = link.is_massless && has_no_mass(constants) && from.rotors.empty();
       link.position[l % kLimbs<H, S>] = layout.position(from.link);
       link.rate[l % kLimbs<H, S>] = layout.rate(from.link);
@@ -353,7 +306,7 @@ class Limb {
   void pull(std::size_t i, const Field<S>& field) {
     const Motion& m = motions_[i];
     Pull<S> sum;
-    for (const Pulled<S>& element : links_[i].elements) {
+    for (const ElementNow<S>& element : links_[i].elements) {
       const Vec<S> r_EL = m.at.dcm_WL * element.r_EL;
       const Vec<S> place = m.at.r_LB + r_EL;
       sum.add(element.mass * field.difference(place), r_EL);
@@ -402,6 +355,7 @@ class Limb {
   }
 
   std::vector<Link> links_;
+  std::vector<DrainingLink> draining_;
   std::vector<Motion> motions_;
   std::vector<Law<S>> laws_;
   std::vector<Recovery> recoveries_;

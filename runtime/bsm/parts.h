@@ -3,6 +3,7 @@
 #pragma once
 
 #include "runtime/bsm/plan.h"
+#include "runtime/forces/element_now.h"
 #include "runtime/forces/field.h"
 #include "runtime/forces/link_motion.h"
 #include "runtime/scalar/linear.h"
@@ -22,23 +23,6 @@ struct Layout {
 /// How a mount moves, in hub axes; its velocity only where a force asks for it.
 template <class S>
 using MountMotion = LinkMotion<S>;
-
-/// What gravity pulls on: an element in the axes of its link, of a chain in the chain's.
-template <class S>
-struct Pulled {
-  S mass{};
-  Vec<S> r_EL;
-  Sym<S> I;  // about its own centre
-
-  void set(std::size_t l, const ElementNow& from) {
-    set_lane(r_EL, l, from.full.r_EL_L);
-    set_mass(l, from);
-  }
-  void set_mass(std::size_t l, const ElementNow& from) {
-    set_lane(mass, l, from.mass());
-    set_lane(I, l, from.I_PntE_L());
-  }
-};
 
 /// Mass, and mass times place from B.
 template <class S>

@@ -35,14 +35,14 @@ bool has_elements(GravityLaw law) {
 }
 
 /// In a falling frame an element at the hub's origin feels nothing but the gradient of its own.
-std::vector<ElementNow> elements_of(const Link& link, GravityLaw law) {
-  std::vector<ElementNow> elements;
+std::vector<MassElement> elements_of(const Link& link, GravityLaw law) {
+  std::vector<MassElement> elements;
   if (!has_elements(law)) return elements;
   for (const MassElement& e : link.elements) {
     const bool falls_with_hub =
         link.parent < 0 && law == GravityLaw::kBodyCom && e.r_EL_L.isZero(0.0);
     if (e.mass <= 0.0 || falls_with_hub) continue;
-    elements.push_back({e});
+    elements.push_back(e);
   }
   return elements;
 }
@@ -90,7 +90,7 @@ std::optional<PlanarLinkPlan> planar_link(const Candidates& of, std::size_t i,
   plan.damping = link.damping;
   plan.rest = link.rest;
   plan.elements = elements_of(of.assembly.links[i], of.law);
-  for (ElementNow& element : plan.elements) element.full.r_EL_L = dcm_CL * element.full.r_EL_L;
+  for (MassElement& element : plan.elements) element.r_EL_L = dcm_CL * element.r_EL_L;
   return plan;
 }
 
@@ -227,15 +227,6 @@ std::size_t Plan::planar_links() const {
     for (const ChainPlan& chain : limb.chains) count += chain.links.size();
   }
   return count;
-}
-
-void Plan::set_shares(std::span<const double> shares) {
-  bsm::set_shares(tree, shares);
-  for (ElementNow& element : hub.elements) element.drain(shares);
-  for (LimbPlan& limb : limbs) {
-    for (LinkPlan& link : limb.links)
-      for (ElementNow& element : link.elements) element.drain(shares);
-  }
 }
 
 Plan make_plan(const Assembly& assembly, AttitudeChart chart, const Gravity& gravity,

@@ -1,6 +1,7 @@
 // What the kernel is built from: the tree cut into the hub and its limbs, with the constants of
 // each. A limb is what hangs on the hub by one joint; like limbs can share SIMD lanes, and tails
-// whose hinges are parallel take the planar path. Everything here happens once, in doubles.
+// whose hinges are parallel take the planar path. Everything here happens once, in doubles; a plan
+// never changes, and any number of kernels may be built from it. Masses are those of full tanks.
 // Tested by tests/runtime/bsm_test.cpp.
 #pragma once
 
@@ -13,7 +14,6 @@
 #include "compiler/ir/inputs.h"
 #include "compiler/ir/model.h"
 #include "runtime/bsm/tree.h"
-#include "runtime/forces/element_now.h"
 
 namespace twincraft::bsm {
 
@@ -21,9 +21,9 @@ struct LinkPlan {
   int link = 0;     // in the assembly
   int parent = -1;  // in the limb; -1: the hub
   bool slides = false;
-  int damped_by_cosine_of = -1;      // in the limb; -1: of none
-  std::vector<ElementNow> elements;  // what gravity pulls on
-  std::vector<int> rotors;           // in the assembly
+  int damped_by_cosine_of = -1;       // in the limb; -1: of none
+  std::vector<MassElement> elements;  // what gravity pulls on
+  std::vector<int> rotors;            // in the assembly
 };
 
 struct PlanarLinkPlan {
@@ -34,7 +34,7 @@ struct PlanarLinkPlan {
   std::array<double, 3> G{};             // [kg m^2] in-plane inertia about the hinge: xx, zz, xz
   double J = 0.0;                        // [kg m^2] about s through the hinge
   double stiffness = 0.0, damping = 0.0, rest = 0.0;
-  std::vector<ElementNow> elements;  // r_EL_L in chain axes at angle zero
+  std::vector<MassElement> elements;  // r_EL_L in chain axes at angle zero
 };
 
 struct ChainPlan {
@@ -67,8 +67,6 @@ struct Plan {
   double mass() const;  // [kg] of all links
   /// How many links the planar path serves.
   std::size_t planar_links() const;
-  /// Let elements of tanks have these parts of their mass and inertia; one share per tank.
-  void set_shares(std::span<const double> shares);
 };
 
 /// @param loads, forces  what may act on a link, which excludes it from the planar path

@@ -7,6 +7,7 @@
 
 #include <span>
 
+#include "runtime/bsm/draining.h"
 #include "runtime/bsm/law.h"
 #include "runtime/bsm/parts.h"
 #include "runtime/bsm/plan.h"
@@ -31,14 +32,16 @@ class Point {
       set_lane(rest_, l, constants.rest);
       position_[l % kLimbs<H, S>] = layout.position(from.link);
       rate_[l % kLimbs<H, S>] = layout.rate(from.link);
+      set_lane(mass_, l, constants.mass);
+      draining_.set(l, *plans[l], from);
     }
-    set_masses(lanes, plans);
+    inverse_mass_ = S(1.0) / mass_;
   }
 
-  void set_masses(Lanes lanes, Plans plans) {
-    mass_ = from_lanes<S>([&](std::size_t l) {
-      return plans[l]->tree.links.data()[lanes[l]->links.data()->link].mass;
-    });
+  /// As of Limb.
+  void drain(const Tanks<H>& tanks) {
+    if (!draining_.drains()) return;
+    mass_ = draining_.mass(tanks).mass;
     inverse_mass_ = S(1.0) / mass_;
   }
 
@@ -117,6 +120,7 @@ class Point {
   Vec<S> r_HB_, axis_;
   Mat<S> dcm_BL_;
   S stiffness_{}, damping_{}, rest_{}, mass_{}, inverse_mass_{}, effort_{};
+  LinkDrain<H, S> draining_;
   Vec<S> force_L_, torque_L_, force_at_center_L_;
   Places<H, S> position_{}, rate_{};
   Vec<S> r_, a_bias_;

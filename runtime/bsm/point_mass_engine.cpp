@@ -18,6 +18,7 @@ class BsmPointMass final : public PointMassEngine {
       : PointMassEngine(model, model.gravity.bsm), mass_(mass_of(model)) {}
 
   std::string_view name() const override { return kBsmKey; }
+  std::unique_ptr<Engine> another() const override { return std::make_unique<BsmPointMass>(*this); }
 
   Eigen::MatrixXd mass_matrix(std::span<const double>) override {
     return mass_ * Matrix3d::Identity();

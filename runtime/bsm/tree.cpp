@@ -1,6 +1,7 @@
 // See tree.h. Tested by tests/runtime/bsm_test.cpp.
 #include "runtime/bsm/tree.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace twincraft::bsm {
@@ -50,8 +51,13 @@ void prepare_mass(const Link& link, std::size_t index, const Matrix3d& rotor_ine
   draining.link = index;
   draining.fixed.J_L = -rotor_inertia;
   for (const MassElement& element : link.elements) {
-    add(element, element.tank < 0 ? draining.fixed
-                                  : part_of(static_cast<std::size_t>(element.tank), draining));
+    if (element.tank < 0) {
+      add(element, draining.fixed);
+      continue;
+    }
+    const auto tank = static_cast<std::size_t>(element.tank);
+    tree.tanks = std::max(tree.tanks, tank + 1);
+    add(element, part_of(tank, draining));
   }
   MassSums full = draining.fixed;
   for (const Draining::Part& part : draining.parts) {
@@ -89,6 +95,11 @@ Tree prepare(const Assembly& assembly) {
     tree.rotors.push_back({rotor.link, rotor.axis_L, rotor.spin_inertia});
   }
   return tree;
+}
+
+const Draining* Tree::draining_of(std::size_t link) const {
+  const auto found = std::ranges::find(draining, link, &Draining::link);
+  return found == draining.end() ? nullptr : &*found;
 }
 
 void set_shares(Tree& tree, std::span<const double> shares) {

@@ -65,6 +65,10 @@ struct Tree {
   std::vector<LinkConstants> links;  // links[0]: the hub, joint unused
   std::vector<RotorConstants> rotors;
   std::vector<Draining> draining;
+  std::size_t tanks = 0;  // that elements belong to
+
+  /// Null: the link's mass is constant.
+  const Draining* draining_of(std::size_t link) const;
 };
 
 Tree prepare(const Assembly& assembly);

@@ -7,9 +7,8 @@
 
 #include "runtime/bsm/charts.h"
 #include "runtime/bsm/kernel.h"
-#include "runtime/bsm/limb.h"
-#include "runtime/bsm/point.h"
-#include "runtime/forces/list.h"
+#include "runtime/bsm/limbs.h"
+#include "runtime/bsm/push.h"
 
 namespace twincraft::bsm::TWINCRAFT_KERNEL {
 
@@ -21,70 +20,54 @@ class Vehicle {
   using Plans = std::span<const Plan* const>;  // one per lane of H, alike
   using Inputs = std::span<const HeldInputs* const>;
 
-  explicit Vehicle(Plans plans) : plan_(*plans[0]) {
+  explicit Vehicle(Plans plans) : plan_(*plans[0]), tanks_(plans[0]->tree.tanks) {
     const int omega = Layout::kAttitude + (plan_.chart == AttitudeChart::kMrp ? 3 : 4);
     const int joint = omega + 3;
     layout_ = {omega, joint, joint + plan_.joints(), joint + 2 * plan_.joints()};
     elements_.resize(plan_.hub.elements.size());
     rotors_.resize(plan_.hub.rotors.size());
     for (std::size_t l = 0; l < plans.size(); ++l) set_hub(l, *plans[l]);
-    set_hub_mass(plans);
-    group_limbs(plans);
+    set_hub_matrices();
+    limbs_.build(plans, layout_);
     is_rigid_ = plan_.limbs.empty() && !plan_.tree.links.data()->drains;
     if (is_rigid_) factors_ = HubFactors(hub_);
     for (const LimbPlan& limb : plan_.limbs) has_elements_ = has_elements_ || pulls_on(limb);
     has_elements_ = has_elements_ || !elements_.empty();
-    list_forces(plans);
+    push_.build(plans, limbs_);
   }
 
-  void set_masses(Plans plans) {
-    if (plan_.tree.links.data()->drains) {
-      set_hub_mass(plans);
-      for (std::size_t l = 0; l < plans.size(); ++l) {
-        for (std::size_t e = 0; e < elements_.size(); ++e) {
-          elements_[e].set_mass(l, plans[l]->hub.elements.data()[e]);
-        }
-      }
-    }
-    for_each_group([&plans](auto& group) {
-      LanesOf lanes(group.limbs, plans);
-      group.limb.set_masses(lanes.limbs, lanes.plans);
-    });
-  }
-
-  void hold(Plans plans, Inputs held) {
+  void hold(Inputs held) {
     acts_at_center_ = false;
-    for (std::size_t l = 0; l < plans.size(); ++l) {
+    for (std::size_t l = 0; l < kLanes<H>; ++l) {
       set_lane(held_.force, l, *held[l]->force_L.data());
       set_lane(held_.torque, l, *held[l]->torque_L.data());
       set_lane(held_at_center_, l, *held[l]->force_at_center_L.data());
       acts_at_center_ = acts_at_center_ || held[l]->acts_at_center;
       for (std::size_t k = 0; k < rotors_.size(); ++k) {
-        rotors_[k].hold(l, held[l]->motor_torque.data()[plans[l]->hub.rotors.data()[k]]);
+        rotors_[k].hold(l, held[l]->motor_torque.data()[plans_[l]->hub.rotors.data()[k]]);
       }
-      forces_.hold(l, plans[l]->forces, held[l]->inputs);
+      push_.hold(l, *plans_[l], held[l]->inputs);
+      tanks_.hold(l, held[l]->inputs);
     }
-    turns_alone_ = is_rigid_ && !has_elements_ && !acts_at_center_ && places_.empty();
-    for (std::size_t l = 0; l < plans.size(); ++l) {
+    turns_alone_ = is_rigid_ && !has_elements_ && !acts_at_center_ && !push_.exists();
+    for (std::size_t l = 0; l < kLanes<H>; ++l) {
       turns_alone_ = turns_alone_ && held[l]->force_L.data()->isZero(0.0) &&
-                     plans[l]->tree.links.data()->first_moment.isZero(0.0);
+                     plans_[l]->tree.links.data()->first_moment.isZero(0.0);
     }
     motor_torque_ = {};
     for (const RotorOn<H, H>& rotor : rotors_) motor_torque_ += rotor.motor_torque * rotor.axis_L;
-    for_each_group([&plans, &held](auto& group) {
+    limbs_.for_each([this, &held](auto& group) {
       for (std::size_t l = 0; l < kLanes<S>; ++l) {
         const std::size_t p = l / kLimbs<H, S>;
-        group.limb.hold(l, limb_of(group, l, *plans[p]), *held[p]);
+        group.limb.hold(l, limbs_.plan_of(group, l, *plans_[p]), *held[p]);
       }
     });
+    if (plan_.tree.tanks > 0) drain(held[0]->inputs.since);
   }
 
   void derivative(double time, const double* state, double* rate) {
-    if (plan_.chart == AttitudeChart::kMrp) {
-      derivative_in<Mrp<H>>(time, state, rate);
-    } else {
-      derivative_in<Quaternion<H>>(time, state, rate);
-    }
+    if (tanks_.flow()) return derivative_draining(time, state, rate);
+    derivative_steady(time, state, rate);
   }
 
   void finish_step(double* state) const {
@@ -102,24 +85,19 @@ class Vehicle {
   const Law<H>& last_hub_law() const { return hub_; }
 
  private:
-  /// Like limbs, side by side.
-  template <class Of>
-  struct Group {
-    std::array<std::size_t, kLimbs<H, S>> limbs;  // of the plan
-    bool is_full;  // else the second lane repeats the first one's limb
-    Of limb;
-  };
-  /// Whose limbs are in which lane.
-  struct LanesOf {
-    LanesOf(const std::array<std::size_t, kLimbs<H, S>>& of, Plans plans_of_hub) {
-      for (std::size_t l = 0; l < kLanes<S>; ++l) {
-        plans[l] = plans_of_hub[l / kLimbs<H, S>];
-        limbs[l] = &plans[l]->limbs.data()[of[l % kLimbs<H, S>]];
-      }
+  void derivative_steady(double time, const double* state, double* rate) {
+    if (plan_.chart == AttitudeChart::kMrp) {
+      derivative_in<Mrp<H>>(time, state, rate);
+    } else {
+      derivative_in<Quaternion<H>>(time, state, rate);
     }
-    std::array<const LimbPlan*, kLanes<S>> limbs;
-    std::array<const Plan*, kLanes<S>> plans;
-  };
+  }
+  // Apart, so that a vehicle whose tanks stay as they are pays one test.
+  [[gnu::noinline]] void derivative_draining(double time, const double* state, double* rate) {
+    drain(time);
+    derivative_steady(time, state, rate);
+  }
+
   /// The hub equation's matrix, factored: Schur complement of M.
   struct HubFactors {
     HubFactors() = default;
@@ -137,20 +115,6 @@ class Vehicle {
     Ldl<H> schur;
   };
 
-  template <class Each>
-  void for_each_group(const Each& each) {
-    for (auto& group : points_) each(group);
-    for (auto& group : limbs_) each(group);
-  }
-  template <class Each>
-  void for_each_group(const Each& each) const {
-    for (const auto& group : points_) each(group);
-    for (const auto& group : limbs_) each(group);
-  }
-  template <class Of>
-  static const LimbPlan& limb_of(const Group<Of>& group, std::size_t l, const Plan& plan) {
-    return plan.limbs.data()[group.limbs[l % kLimbs<H, S>]];
-  }
   static Vec<H> vector(const double* state, int at) {
     return {entry<H>(state, at), entry<H>(state, at + 1), entry<H>(state, at + 2)};
   }
@@ -162,7 +126,10 @@ class Vehicle {
   static Vec<S> spread(const Vec<H>& v) { return {S(v.x), S(v.y), S(v.z)}; }
 
   void set_hub(std::size_t l, const Plan& plan) {
+    plans_[l] = &plan;
     set_lane(mu_, l, plan.mu);
+    mass_.set(l, *plan.tree.links.data());
+    draining_.set(l, plan, plan.hub);
     for (std::size_t e = 0; e < elements_.size(); ++e) {
       elements_[e].set(l, plan.hub.elements.data()[e]);
     }
@@ -181,40 +148,6 @@ class Vehicle {
     return pulls;
   }
 
-  void add_group(const std::array<std::size_t, kLimbs<H, S>>& limbs, bool is_full, Plans plans) {
-    const LanesOf lanes(limbs, plans);
-    if (lanes.limbs[0]->is_point) {
-      points_.push_back({limbs, is_full, Point<H, S>(lanes.limbs, lanes.plans, layout_)});
-    } else {
-      limbs_.push_back({limbs, is_full, Limb<H, S>(lanes.limbs, lanes.plans, layout_)});
-    }
-  }
-
-  void group_limbs(Plans plans) {
-    const std::size_t count = plan_.limbs.size();
-    if constexpr (kLimbs<H, S> == 1) {
-      for (std::size_t k = 0; k < count; ++k) add_group({k}, true, plans);
-    } else {
-      for (std::size_t k = 0; k < count; ++k) {
-        if (is_grouped(k)) continue;
-        std::size_t other = k + 1;
-        while (other < count && (is_grouped(other) ||
-                                 !are_alike(plan_.limbs.data()[k], plan_.limbs.data()[other]))) {
-          ++other;
-        }
-        const bool alone = other == count;
-        add_group({k, alone ? k : other}, !alone, plans);
-      }
-    }
-  }
-  bool is_grouped(std::size_t k) const {
-    bool found = false;
-    for_each_group([&found, k](const auto& group) {
-      for (const std::size_t limb : group.limbs) found = found || limb == k;
-    });
-    return found;
-  }
-
   template <class Chart>
   void derivative_in(double time, const double* state, double* rate) {
     const Chart chart(state, Layout::kAttitude);
@@ -225,17 +158,17 @@ class Vehicle {
     }
     const Mat<H> dcm_NB = chart.dcm_NB();
     const Vec<S> omega_S = spread(omega);
-    for_each_group([&](auto& group) { group.limb.move(state, omega_S); });
+    limbs_.for_each([&](auto& group) { group.limb.move(state, omega_S); });
 
     begin_hub_law(omega, rotor_momentum(state, omega));
-    if (forces_.acts()) push(time, state, dcm_NB, omega);
+    if (push_.acts()) push(time, state, dcm_NB, omega);
     const Vec<H> g_N = sum_laws(vector(state, 0), dcm_NB);
     if (!is_rigid_) factors_ = HubFactors(hub_);
     const Vec<H> omega_dot = factors_.schur.solve(transposed(factors_.coupling, hub_.f0) - hub_.n0);
     const Vec<H> a = -factors_.M.solve(hub_.f0) - factors_.coupling * omega_dot;
 
     const Vec<S> omega_dot_S = spread(omega_dot), a_S = spread(a);
-    for_each_group([&](auto& group) { group.limb.recover(omega_dot_S, a_S, rate); });
+    limbs_.for_each([&](auto& group) { group.limb.recover(omega_dot_S, a_S, rate); });
     put_hub_rates(chart, state, dcm_NB * a + g_N, omega_dot, rate);
     for (int i = layout_.joint; i < layout_.joint_rate; ++i) {
       put_entry(rate, i, entry<H>(state, i + layout_.joint_rate - layout_.joint));
@@ -245,64 +178,11 @@ class Vehicle {
   // Apart from derivative_in(): most vehicles have no such force.
   [[gnu::noinline]] void push(double time, const double* state, const Mat<H>& dcm_NB,
                               const Vec<H>& omega) {
-    const Surroundings<H> around{H(time), vector(state, 0), vector(state, 3), dcm_NB};
-    LinkMotion<H> hub;
-    hub.dcm_WL = {{H(1.0), H(0.0), H(0.0)}, {H(0.0), H(1.0), H(0.0)}, {H(0.0), H(0.0), H(1.0)}};
-    hub.omega = omega;
-    const auto with_place = [this](int link, const auto& on_point, const auto& on_limb) {
-      const ForcePlace& place = places_.data()[link];
-      if (place.is_point)
-        on_point(points_.data()[place.group].limb, place);
-      else
-        on_limb(limbs_.data()[place.group].limb, place);
-    };
-    const auto motion_of = [&](int link) {
-      LinkMotion<H> motion = hub;
-      const auto take = [&motion](const auto& limb, const ForcePlace& place) {
-        motion = limb.motion_of(place.link, place.lane);
-      };
-      if (link > 0) with_place(link, take, take);
-      return motion;
-    };
-    forces_.add(around, motion_of, [&](int link, const Pull<H>& pull) {
-      if (link == 0) {
-        hub_.f0 -= pull.force;
-        hub_.n0 -= pull.torque;
-        return;
-      }
-      const auto give = [&pull](auto& limb, const ForcePlace& place) {
-        limb.push(place.link, place.lane, pull);
-      };
-      with_place(link, give, give);
-    });
-  }
-
-  /// Where a link that forces act on is among the limbs.
-  struct ForcePlace {
-    bool is_point = false;
-    std::size_t group = 0, link = 0, lane = 0;
-  };
-
-  void list_forces(Plans plans) {
-    std::array<const Forces*, kLanes<H>> of{};
-    for (std::size_t l = 0; l < kLanes<H>; ++l) of[l] = &plans[l]->forces;
-    forces_ = ForceList<H>(of);
-    const std::vector<int> links = links_of(plan_.forces);
-    if (links.empty()) return;
-    places_.resize(plan_.tree.links.size());
-    find_places(points_, true);
-    find_places(limbs_, false);
-    for_each_group([](auto& group) { group.limb.watch(); });
-  }
-  template <class Of>
-  void find_places(const std::vector<Group<Of>>& groups, bool is_point) {
-    for (std::size_t g = 0; g < groups.size(); ++g)
-      for (std::size_t j = 0; j < kLimbs<H, S>; ++j) {
-        if (j > 0 && !groups[g].is_full) continue;
-        const LimbPlan& limb = plan_.limbs.data()[groups[g].limbs[j]];
-        for (std::size_t i = 0; i < limb.links.size(); ++i)
-          places_[static_cast<std::size_t>(limb.links[i].link)] = {is_point, g, i, j};
-      }
+    push_.add({H(time), vector(state, 0), vector(state, 3), dcm_NB}, omega, limbs_,
+              [this](const Pull<H>& pull) {
+                hub_.f0 -= pull.force;
+                hub_.n0 -= pull.torque;
+              });
   }
 
   /// A rigid hub whose origin is its centre of mass, that no force acts on: rotation knows nothing
@@ -338,11 +218,15 @@ class Vehicle {
     return spin;
   }
 
-  void set_hub_mass(Plans plans) {
-    typename LinkMass<H>::Constants of{};
-    for (std::size_t l = 0; l < plans.size(); ++l) of[l] = plans[l]->tree.links.data();
-    mass_.set(of);
-    set_hub_matrices();
+  /// Let masses be those that the tanks leave at `time` [s].
+  void drain(double time) {
+    tanks_.move_to(H(time));
+    if (draining_.drains()) {
+      mass_ = draining_.mass(tanks_);
+      draining_.put_elements(tanks_, elements_);
+      set_hub_matrices();
+    }
+    limbs_.for_each([this](auto& group) { group.limb.drain(tanks_); });
   }
 
   /// What of the hub's own law does not change with its motion.
@@ -388,7 +272,7 @@ class Vehicle {
 
   Vec<H> center_of_mass() const {
     Moment<H> sum{mass_.mass, mass_.moment};
-    for_each_group([&sum](const auto& group) {
+    limbs_.for_each([&sum](const auto& group) {
       const Moment<S> limb = group.limb.moment();
       const auto both = [&group](const S& value) { return gathered<H, S>(value, group.is_full); };
       sum += {both(limb.mass), {both(limb.moment.x), both(limb.moment.y), both(limb.moment.z)}};
@@ -397,7 +281,7 @@ class Vehicle {
   }
 
   void pull_on_hub(const Field<H>& field) {
-    for (const Pulled<H>& element : elements_) {
+    for (const ElementNow<H>& element : elements_) {
       const Vec<H> force = element.mass * field.difference(element.r_EL);
       hub_.f0 -= force;
       hub_.n0 -= cross(element.r_EL, force);
@@ -407,7 +291,7 @@ class Vehicle {
 
   void add_limbs(const Field<H>* field, const Vec<H>* r_CB) {
     if (field == nullptr && r_CB == nullptr) {
-      for_each_group(
+      limbs_.for_each(
           [this](auto& group) { add(group.limb.contribute(nullptr, nullptr), group.is_full); });
       return;
     }
@@ -418,7 +302,7 @@ class Vehicle {
                  field->has_gradient};
     }
     if (r_CB != nullptr) r_CB_S = spread(*r_CB);
-    for_each_group([&](auto& group) {
+    limbs_.for_each([&](auto& group) {
       add(group.limb.contribute(field == nullptr ? nullptr : &field_S,
                                 r_CB == nullptr ? nullptr : &r_CB_S),
           group.is_full);
@@ -439,24 +323,25 @@ class Vehicle {
   }
 
   const Plan& plan_;  // of lane 0, for what all share
+  std::array<const Plan*, kLanes<H>> plans_{};
+  Tanks<H> tanks_;
   Layout layout_;
   H mu_{};
   LinkMass<H> mass_;
-  std::vector<Pulled<H>> elements_;
+  LinkDrain<H, H> draining_;
+  std::vector<ElementNow<H>> elements_;
   std::vector<RotorOn<H, H>> rotors_;
   Pull<H> held_;
   Vec<H> held_at_center_;
   bool acts_at_center_ = false;
   Vec<H> motor_torque_;  // of all rotors on the hub, on the rotors
-  std::vector<Group<Point<H, S>>> points_;
-  std::vector<Group<Limb<H, S>>> limbs_;
+  Limbs<H, S> limbs_;
   bool is_rigid_ = false;      // no limbs, no draining: factored once
   bool turns_alone_ = false;   // see turn_alone()
   bool has_elements_ = false;  // that feel another field than B does
   HubFactors factors_;
   Law<H> hub_alone_, hub_;
-  ForceList<H> forces_;             // that follow the motion of links
-  std::vector<ForcePlace> places_;  // by link; empty: there are no such forces
+  Push<H, S> push_;  // of forces that follow the motion of links
 };
 
 }  // namespace twincraft::bsm::TWINCRAFT_KERNEL

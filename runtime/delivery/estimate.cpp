@@ -12,7 +12,8 @@
 
 #include "compiler/diag/diagnostics.h"
 #include "compiler/ir/number.h"
-#include "runtime/simulate/propagate.h"
+#include "runtime/engine/observation.h"
+#include "runtime/simulate/flight.h"
 
 namespace twincraft {
 namespace {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -31,6 +32,10 @@ class Engine {
   virtual std::string_view name() const = 0;  // the key of its EngineName
   virtual const StateLayout& layout() const = 0;
 
+  /// A second engine of the same model, as newly built: its workspace is its own, and what never
+  /// changes is shared. Each may be used on a thread of its own.
+  virtual std::unique_ptr<Engine> another() const = 0;
+
   /// The state of the model at t = 0.
   virtual Eigen::VectorXd initial_state() const = 0;
 
@@ -38,7 +43,8 @@ class Engine {
   /// event. An engine is built with the inputs of t = 0.
   virtual void hold(const Inputs& inputs) = 0;
 
-  /// rate = d(state)/dt at `time`. Both have layout().size() entries and do not overlap.
+  /// rate = d(state)/dt at `time`. Both have layout().size() entries and do not overlap. Leaves
+  /// nothing that a later call can see.
   /// @param books  receives what changes them, where given; the rate is the same either way
   virtual void derivative(double time, std::span<const double> state, std::span<double> rate,
                           BookRates* books) = 0;
@@ -57,14 +63,15 @@ class Engine {
     return seen;
   }
 
-  /// The mass matrix over (v_B in N, omega in B, joint rates, wheel rates), for proofs.
+  /// The mass matrix over (v_B in N, omega in B, joint rates, wheel rates) when what is held began,
+  /// for proofs.
   virtual Eigen::MatrixXd mass_matrix(std::span<const double> state) = 0;
 
   /// The numbers it was built of. Nothing: its mass matrix tells them all, as that of a point mass.
   virtual HeldMachine held() const { return {}; }
 
-  /// How large the terms are of which it forms mass matrix and forces at `state`, under the inputs
-  /// that are held.
+  /// How large the terms are of which it forms mass matrix and forces at `state`, when the inputs
+  /// that are held began.
   virtual RoundingTerms rounding_terms(std::span<const double> /*state*/) { return {}; }
 };
 

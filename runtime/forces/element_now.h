@@ -1,23 +1,29 @@
-// What is left of an element of the mass ledger.
+// What is left of an element of the mass ledger, in any scalar: what gravity pulls on in the kernel
+// and for MuJoCo, and what the books sum up.
 #pragma once
 
-#include <span>
+#include "runtime/scalar/linear.h"
 
-#include "compiler/ir/mass.h"
+namespace twincraft::TWINCRAFT_KERNEL {
 
-namespace twincraft {
-
-/// An element as it is now: all of it, or its tank's share.
+/// See MassElement; in the axes of its link, of a planar chain in the chain's.
+template <class S>
 struct ElementNow {
-  MassElement full;  // at t = 0
-  double share = 1.0;
+  S mass{};     // [kg]
+  Vec<S> r_EL;  // [m]
+  Sym<S> I;     // [kg m^2] about its own centre
 
-  double mass() const { return share * full.mass; }            // [kg]
-  Matrix3d I_PntE_L() const { return share * full.I_PntE_L; }  // [kg m^2]
-  /// @param shares  of every tank
-  void drain(std::span<const double> shares) {
-    if (full.tank >= 0) share = shares[static_cast<std::size_t>(full.tank)];
+  /// All of it.
+  void set(std::size_t l, const MassElement& full) {
+    set_lane(mass, l, full.mass);
+    set_lane(r_EL, l, full.r_EL_L);
+    set_lane(I, l, full.I_PntE_L);
+  }
+  /// The share of a tank that it drains with; where it is does not change.
+  void keep(const S& share, const ElementNow& full) {
+    mass = share * full.mass;
+    I = share * full.I;
   }
 };
 
-}  // namespace twincraft
+}  // namespace twincraft::TWINCRAFT_KERNEL

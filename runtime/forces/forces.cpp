@@ -35,29 +35,27 @@ WrenchSums sum_up(std::span<const Wrench> wrenches, std::span<const LinkPose> li
 
 ForceModel::ForceModel(const Model& model, GravityLaw law,
                        const std::vector<std::vector<MassElement>>& elements, FieldFrame frame)
-    : mu_(model.gravity.mu), law_(law), frame_(frame), loads_(model.loads) {
-  for (std::size_t link = 0; link < elements.size(); ++link) {
-    for (const MassElement& element : elements[link]) {
-      if (element.mass <= 0.0) continue;
-      elements_.push_back({{element}, link});
-      mass_ += element.mass;
-    }
-  }
+    : mu_(model.gravity.mu),
+      law_(law),
+      frame_(frame),
+      elements_(elements, [](const MassElement& element) { return element.mass > 0.0; }),
+      loads_(model.loads) {
+  for (const Element& e : elements_) mass_ += e.mass;
   const bool all_at_hub_origin =
       std::all_of(elements_.begin(), elements_.end(),
-                  [](const Element& e) { return e.link == 0 && e.full.r_EL_L.isZero(0.0); });
+                  [](const Element& e) { return e.link == 0 && e.r_EL_L().isZero(0.0); });
   gravity_acts_ = law == GravityLaw::kBodyGradient ||
                   (law == GravityLaw::kBodyCom && !all_at_hub_origin) ||
                   (law != GravityLaw::kNone && frame == FieldFrame::kInertial);
   needs_elements_ =
       law != GravityLaw::kNone ||
       std::any_of(loads_.begin(), loads_.end(), [](const Load& load) { return !load.r_FL_L; });
-  acting_loads_.reserve(loads_.size());
   hold(inputs_at(model, 0.0));
 }
 
 void ForceModel::hold(const Inputs& inputs) {
   acting_loads_.clear();
+  acting_loads_.reserve(loads_.size());  // for all, so that later calls do not allocate
   for (std::size_t i = 0; i < loads_.size(); ++i) {
     const Load& load = loads_[i];
     const Vector3d force_L = inputs.vector(inputs.layout.force(static_cast<int>(i)));
@@ -71,21 +69,19 @@ void ForceModel::hold(const Inputs& inputs) {
 
 void ForceModel::set_shares(std::span<const double> shares) {
   if (!needs_elements_) return;
+  elements_.set_shares(shares);
   mass_ = 0.0;
-  for (Element& e : elements_) {
-    e.drain(shares);
-    mass_ += e.mass();
-  }
+  for (const Element& e : elements_) mass_ += e.mass;
 }
 
 Vector3d ForceModel::center_of_mass(std::span<const LinkPose> links) const {
   Vector3d moment = Vector3d::Zero();
-  for (const Element& e : elements_) moment += e.mass() * place_of(e, links);
+  for (const Element& e : elements_) moment += e.mass * place_of(e, links);
   return moment / mass_;
 }
 
 Vector3d ForceModel::place_of(const Element& e, std::span<const LinkPose> links) {
-  return links[e.link].r_LB_W + links[e.link].dcm_WL * e.full.r_EL_L;
+  return links[e.link].r_LB_W + links[e.link].dcm_WL * e.r_EL_L();
 }
 
 void ForceModel::apply_gravity(const Vector3d& r_BN_W, std::span<const LinkPose> links,
@@ -103,14 +99,12 @@ void ForceModel::apply_gravity(const Vector3d& r_BN_W, std::span<const LinkPose>
       g = frame_ == FieldFrame::kFalling ? eigen(field.difference(vec(r_EB_W)))
                                          : point_gravity(mu_, r_BN_W + r_EB_W);
     }
-    const Vector3d force_W = e.mass() * g;
+    const Vector3d force_W = e.mass * g;
     wrench.force_W += force_W;
     wrench.torque_PntB_W += r_EB_W.cross(force_W);
     if (!field.has_gradient) continue;
-    Sym<double> I_L;
-    set_lane(I_L, 0, e.I_PntE_L());
     const Vector3d torque_W =
-        eigen(field.gradient_torque(vec(r_EB_W), I_L.turned(mat(links[e.link].dcm_WL))));
+        eigen(field.gradient_torque(vec(r_EB_W), e.I.turned(mat(links[e.link].dcm_WL))));
     wrench.torque_PntB_W += torque_W;
     if (!rates.empty()) work.power += torque_W.dot(rates[e.link].omega_LN_W);
   }
@@ -177,7 +171,7 @@ double ForceModel::potential(const Vector3d& r_BN_W, std::span<const LinkPose> l
   if (law_ == GravityLaw::kNone) return 0.0;
   if (!is_per_body(law_)) return -mu_ * mass_ / (r_BN_W + center_of_mass(links)).norm();
   double sum = 0.0;
-  for (const Element& e : elements_) sum -= mu_ * e.mass() / (r_BN_W + place_of(e, links)).norm();
+  for (const Element& e : elements_) sum -= mu_ * e.mass / (r_BN_W + place_of(e, links)).norm();
   return sum;
 }
 
@@ -189,8 +183,8 @@ double ForceModel::potential_rate(const Vector3d& r_BN_W, std::span<const LinkPo
   const Vector3d r_CN_W = r_BN_W + center_of_mass(links);
   double sum = 0.0;
   for (const Element& e : elements_) {
-    if (e.full.tank < 0) continue;
-    const double mass_rate = e.full.mass * share_rates[static_cast<std::size_t>(e.full.tank)];
+    if (e.tank < 0) continue;
+    const double mass_rate = e.full_mass * share_rates[static_cast<std::size_t>(e.tank)];
     const Vector3d r_EN_W = r_BN_W + place_of(e, links);
     sum +=
         is_per_body(law_)

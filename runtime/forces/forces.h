@@ -14,7 +14,7 @@
 
 #include "compiler/ir/inputs.h"
 #include "compiler/ir/model.h"
-#include "runtime/forces/element_now.h"
+#include "runtime/forces/elements.h"
 
 namespace twincraft {
 
@@ -104,9 +104,7 @@ class ForceModel {
                         std::span<const double> share_rates) const;
 
  private:
-  struct Element : ElementNow {
-    std::size_t link = 0;
-  };
+  using Element = Elements::Placed;
   struct HeldLoad {
     int link;
     bool pushes;  // has a force
@@ -130,10 +128,10 @@ class ForceModel {
   FieldFrame frame_;
   bool gravity_acts_ = false;    // links feel more than the common fall
   bool needs_elements_ = false;  // gravity or a load at the centre of mass asks where they are
-  std::vector<Element> elements_;
+  Elements elements_;
   double mass_ = 0.0;
   std::vector<Load> loads_;
-  std::vector<HeldLoad> acting_loads_;  // capacity for all: hold() does not allocate
+  std::vector<HeldLoad> acting_loads_;
 };
 
 /// g(r) of a point mass [m/s^2].

@@ -29,7 +29,17 @@ PointMassEngine::PointMassEngine(const Model& model, GravityLaw law)
       mu_(law == GravityLaw::kNone ? 0.0 : model.gravity.mu),
       r_CB_N_(center_of_mass(model)) {
   PointMassEngine::hold(inputs_at(model, 0.0));
+  force_at_start_N_ = force_N_;
 }
+
+PointMassEngine::PointMassEngine(const PointMassEngine& other)
+    : Engine(other),
+      initial_(other.initial_),
+      mu_(other.mu_),
+      r_CB_N_(other.r_CB_N_),
+      layout_(other.layout_),
+      force_N_(other.force_at_start_N_),
+      force_at_start_N_(other.force_at_start_N_) {}
 
 void PointMassEngine::hold(const Inputs& inputs) {
   force_N_.setZero();

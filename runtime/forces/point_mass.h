@@ -11,6 +11,7 @@ namespace twincraft {
 
 class PointMassEngine : public Engine {
  public:
+  PointMassEngine& operator=(const PointMassEngine&) = delete;
   const StateLayout& layout() const override { return layout_; }
   Eigen::VectorXd initial_state() const override { return pack(initial_, layout_); }
   void hold(const Inputs& inputs) override;
@@ -21,6 +22,8 @@ class PointMassEngine : public Engine {
 
  protected:
   PointMassEngine(const Model& model, GravityLaw law);
+  /// As newly built.
+  PointMassEngine(const PointMassEngine& other);
 
   /// Of the hub origin [m/s^2].
   virtual Vector3d acceleration(const Vector3d& r_BN_N, const Vector3d& v_BN_N) = 0;
@@ -39,6 +42,7 @@ class PointMassEngine : public Engine {
   Vector3d r_CB_N_;  // [m] where in the hub the mass is
   StateLayout layout_{.translation = true};
   Vector3d force_N_ = Vector3d::Zero();
+  Vector3d force_at_start_N_;  // [N] at t = 0
 };
 
 }  // namespace twincraft

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compiler/ir/angle.h"
 #include "compiler/ir/number.h"
-#include "runtime/engine/measure.h"
 #include "runtime/linear/amplification.h"
 
 namespace twincraft {

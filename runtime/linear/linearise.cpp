@@ -1,8 +1,10 @@
 #include "runtime/linear/linearise.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 
 #include "runtime/bsm/engine.h"
 
@@ -50,6 +52,62 @@ int leading_entry(const OwnMotion& motion, const Eigen::VectorXcd& shape, double
     leading = entry;
   }
   return leading;
+}
+
+/// The smallest w that brings B w nearest to b. The columns of B are turned in pairs until they are
+/// perpendicular (one-sided Jacobi, Hestenes 1958). Eigen's decompositions that know a rank would
+/// make this the file that takes longest to compile.
+Eigen::VectorXd least_solution(Eigen::MatrixXd B, const Eigen::VectorXd& b) {
+  constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+  constexpr int kSweeps = 30;  // it takes about six
+  Eigen::MatrixXd turns = Eigen::MatrixXd::Identity(B.cols(), B.cols());
+  bool is_turning = true;
+  for (int sweep = 0; is_turning && sweep < kSweeps; ++sweep) {
+    is_turning = false;
+    for (Eigen::Index q = 1; q < B.cols(); ++q)
+      for (Eigen::Index p = 0; p < q; ++p) {
+        const double pp = B.col(p).squaredNorm(), qq = B.col(q).squaredNorm();
+        const double pq = B.col(p).dot(B.col(q));
+        if (std::abs(pq) <= kEpsilon * std::sqrt(pp * qq)) continue;
+        is_turning = true;
+        Eigen::JacobiRotation<double> turn;
+        turn.makeJacobi(pp, pq, qq);
+        B.applyOnTheRight(p, q, turn);
+        turns.applyOnTheRight(p, q, turn);
+      }
+  }
+  const double rounding = kEpsilon * static_cast<double>(B.cols());
+  const double smallest = rounding * B.colwise().norm().maxCoeff();
+  Eigen::VectorXd w = Eigen::VectorXd::Zero(B.cols());
+  for (Eigen::Index k = 0; k < B.cols(); ++k) {
+    const double size = B.col(k).norm();
+    if (size > smallest) w += turns.col(k) * (B.col(k).dot(b) / size / size);
+  }
+  return w;
+}
+
+/// The shares of the shapes in `drive`, the smallest where shapes depend on each other. Of a
+/// complex pair x +- i y the columns x and y do, which keeps it in real numbers; sqrt(2) keeps
+/// lengths.
+Eigen::VectorXcd weights_of(const Eigen::MatrixXcd& shapes, const Eigen::VectorXd& drive) {
+  constexpr double kRoot = std::numbers::sqrt2;
+  const auto is_real = [&](Eigen::Index k) { return shapes.col(k).imag().isZero(0.0); };
+  Eigen::MatrixXd columns = shapes.real();
+  for (Eigen::Index k = 0; k < shapes.cols(); ++k) {
+    if (is_real(k)) continue;
+    columns.col(k) *= kRoot;
+    columns.col(k + 1) = kRoot * shapes.col(k).imag();
+    ++k;
+  }
+  const Eigen::VectorXd shares = least_solution(columns, drive);
+  Eigen::VectorXcd weights = shares.cast<std::complex<double>>();
+  for (Eigen::Index k = 0; k < shapes.cols(); ++k) {
+    if (is_real(k)) continue;
+    weights[k] = std::complex<double>(shares[k], -shares[k + 1]) / kRoot;
+    weights[k + 1] = std::conj(weights[k]);
+    ++k;
+  }
+  return weights;
 }
 
 }  // namespace
@@ -107,8 +165,7 @@ std::vector<Mode> decompose(const OwnMotion& motion, const Eigen::MatrixXd& A,
   if (solver.info() != Eigen::Success) return {};
   const Eigen::MatrixXcd shapes = solver.eigenvectors();
   Eigen::VectorXcd weights = Eigen::VectorXcd::Zero(A.rows());
-  if (!drive.isZero(0.0))
-    weights = shapes.completeOrthogonalDecomposition().solve(drive.cast<std::complex<double>>());
+  if (!drive.isZero(0.0)) weights = weights_of(shapes, drive);
   std::vector<Mode> modes;
   for (Eigen::Index k = 0; k < A.rows(); ++k) {
     std::complex<double> s = solver.eigenvalues()[k];

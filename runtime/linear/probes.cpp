@@ -4,9 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "compiler/ir/angle.h"
 #include "runtime/bsm/engine.h"
-#include "runtime/engine/measure.h"
-#include "runtime/linear/linearise.h"
 
 namespace twincraft {
 namespace {

@@ -12,7 +12,7 @@ DrainingBodies::DrainingBodies(const Model& model, const mjModel& loaded) {
   }
 }
 
-void DrainingBodies::set_shares(std::span<const double> shares, mjModel& model) {
+void DrainingBodies::set_shares(std::span<const double> shares, mjModel& model) const {
   for (const Body& body : bodies_) {
     const double share = shares[body.tank];
     model.body_mass[body.id] = share * body.full_mass;

@@ -18,7 +18,10 @@ class DrainingBodies {
   /// Write masses and moments; one share per tank. Nothing else of the model depends on them in the
   /// stages that an evaluation calls, and no centre of mass moves in its body, so mj_setConst is
   /// not needed.
-  void set_shares(std::span<const double> shares, mjModel& model);
+  void set_shares(std::span<const double> shares, mjModel& model) const;
+
+  /// No body does.
+  bool empty() const { return bodies_.empty(); }
 
   /// Rates of the books at fixed motion. @param share_rates  of every tank [1/s]
   LeavingSums leaving(const mjModel& model, const mjData& data, const Vector3d& v_BN_W,

@@ -21,17 +21,14 @@
 #include <utility>
 #include <vector>
 
-#include "compiler/ir/number.h"
 #include "runtime/forces/forces.h"
 #include "runtime/forces/link_forces.h"
 #include "runtime/forces/propellant_ledger.h"
-#include "runtime/mujoco/draining.h"
-#include "runtime/mujoco/exchange.h"
 #include "runtime/mujoco/handles.h"
 #include "runtime/mujoco/held_model.h"
 #include "runtime/mujoco/inertia_terms.h"
+#include "runtime/mujoco/machine.h"
 #include "runtime/mujoco/motion_sums.h"
-#include "runtime/mujoco/passive_joints.h"
 #include "runtime/mujoco/point_mass_engine.h"
 #include "runtime/mujoco/round_wheels.h"
 #include "runtime/mujoco/tree_map.h"
@@ -42,23 +39,6 @@ namespace {
 
 using Input = Eigen::Map<const Vector3d>;
 
-MujocoModel load(const Model& model, const std::string& mjcf) {
-  MujocoModel loaded = load_mjcf(mjcf);
-  restore_exact_masses(model.tree, *loaded);
-  // Pictures and markers are for `simulate`; here mj_kinematics would only carry them along.
-  loaded->ngeom = 0;
-  loaded->nsite = 0;
-  return loaded;
-}
-
-Placement placement_of(MujocoFrame frame) {
-  return frame == MujocoFrame::kComoving ? Placement::kAligned : Placement::kRaw;
-}
-
-FieldFrame field_frame(MujocoFrame frame) {
-  return frame == MujocoFrame::kComoving ? FieldFrame::kFalling : FieldFrame::kInertial;
-}
-
 /// Body to N components; a quaternion within a step is read as if normalised.
 Matrix3d dcm_of(const double* q) {
   return Quaterniond(q[0], q[1], q[2], q[3]).normalized().toRotationMatrix();
@@ -66,18 +46,21 @@ Matrix3d dcm_of(const double* q) {
 
 class MujocoEngine final : public Engine {
  public:
-  MujocoEngine(const Model& model, const std::string& mjcf);
+  explicit MujocoEngine(std::shared_ptr<const MujocoMachine> machine);
 
   std::string_view name() const override { return kMujocoKey; }
-  const StateLayout& layout() const override { return exchange_.layout(); }
-  Eigen::VectorXd initial_state() const override { return pack(initial_, layout()); }
+  const StateLayout& layout() const override { return machine_->exchange.layout(); }
+  std::unique_ptr<Engine> another() const override {
+    return std::make_unique<MujocoEngine>(machine_);
+  }
+  Eigen::VectorXd initial_state() const override { return pack(machine_->initial, layout()); }
   void hold(const Inputs& inputs) override;
   void derivative(double time, std::span<const double> state, std::span<double> rate,
                   BookRates* books) override;
   void finish_step(std::span<double> state) override;
   void observe(double time, std::span<const double> state, Observation& seen) override;
   Eigen::MatrixXd mass_matrix(std::span<const double> state) override;
-  HeldMachine held() const override { return held_by(*model_, map_); }
+  HeldMachine held() const override { return held_by(*machine_->loaded, machine_->map); }
   RoundingTerms rounding_terms(std::span<const double> state) override;
 
  private:
@@ -104,22 +87,15 @@ class MujocoEngine final : public Engine {
   double joint_power() const;
   std::vector<int> dof_order() const;
 
-  Assembly assembly_;
-  VehicleState initial_;
-  Placement placement_;
-  GravityLaw law_;
-  MujocoModel model_;
-  std::vector<int> round_wheels_;
+  std::shared_ptr<const MujocoMachine> machine_;
+  MujocoModel own_model_;  // see MujocoMachine::model_to_drain
+  const mjModel* model_;   // that one, or the shared one
   MujocoData data_;
-  TreeMap map_;
-  Exchange exchange_;
-  PassiveJoints passive_;
   PropellantLedger propellant_;
   double drained_to_ = 0.0;  // [s] the time the masses are of; NaN: of none
-  DrainingBodies draining_;
+  double held_since_ = 0.0;  // [s]
   WrenchProjector projector_;
   ForceModel forces_;
-  const Forces force_data_;
   LinkForces link_forces_;
   std::vector<double> held_;     // held efforts and motor torques, per MuJoCo dof
   std::vector<double> applied_;  // inputs and projected wrenches
@@ -129,70 +105,62 @@ class MujocoEngine final : public Engine {
   std::vector<int> all_links_;
 };
 
-MujocoEngine::MujocoEngine(const Model& model, const std::string& mjcf)
-    : assembly_(model.assembly),
-      initial_(model.initial),
-      placement_(placement_of(model.engines.frame)),
-      law_(model.gravity.mujoco),
-      model_(load(model, mjcf)),
-      round_wheels_(make_wheels_round(model.tree, *model_)),
+MujocoEngine::MujocoEngine(std::shared_ptr<const MujocoMachine> machine)
+    : machine_(std::move(machine)),
+      own_model_(machine_->model_to_drain()),
+      model_(own_model_ ? own_model_.get() : machine_->loaded.get()),
       data_(make_data(*model_)),
-      map_(map_tree(model, *model_)),
-      exchange_(assembly_, map_),
-      passive_(assembly_, map_, *model_),
-      propellant_(model.tanks),
-      draining_(model, *model_),
-      projector_(*model_, map_),
-      forces_(model, law_, gravity_elements(model), field_frame(model.engines.frame)),
-      force_data_(model.forces),
-      link_forces_(force_data_, inputs_at(model, 0.0)),
+      propellant_(machine_->propellant),
+      projector_(*model_, machine_->map),
+      forces_(machine_->forces),
+      link_forces_(machine_->link_forces, machine_->start),
       held_(static_cast<std::size_t>(model_->nv)),
       applied_(held_.size()),
-      poses_(model.assembly.links.size()),
+      poses_(machine_->map.link_body.size()),
       wrenches_(poses_.size()),
       link_rates_(poses_.size()),
       all_links_(poses_.size()) {
   std::iota(all_links_.begin(), all_links_.end(), 0);
-  MujocoEngine::hold(inputs_at(model, 0.0));
+  MujocoEngine::hold(machine_->start);
 }
 
 void MujocoEngine::hold(const Inputs& inputs) {
   double* held = held_.data();
-  for (std::size_t i = 0; i < map_.joint_dof.size(); ++i)
-    held[map_.joint_dof[i]] = inputs[inputs.layout.effort(static_cast<int>(i))];
-  for (std::size_t i = 0; i < map_.wheel_dof.size(); ++i)
-    held[map_.wheel_dof[i]] = inputs[inputs.layout.motor_torque(static_cast<int>(i))];
+  for (std::size_t i = 0; i < machine_->map.joint_dof.size(); ++i)
+    held[machine_->map.joint_dof[i]] = inputs[inputs.layout.effort(static_cast<int>(i))];
+  for (std::size_t i = 0; i < machine_->map.wheel_dof.size(); ++i)
+    held[machine_->map.wheel_dof[i]] = inputs[inputs.layout.motor_torque(static_cast<int>(i))];
   forces_.hold(inputs);
   propellant_.hold(inputs);
   link_forces_.hold(inputs);
   drained_to_ = std::numeric_limits<double>::quiet_NaN();
-  drain(inputs.since);
+  held_since_ = inputs.since;
 }
 
 void MujocoEngine::drain(double time) {
   if (propellant_.is_idle() || time == drained_to_) return;
   drained_to_ = time;
   const std::span<const double> shares = propellant_.shares(time);
-  draining_.set_shares(shares, *model_);
+  if (own_model_) machine_->draining.set_shares(shares, *own_model_);
   forces_.set_shares(shares);
 }
 
 void MujocoEngine::derivative(double time, std::span<const double> state, std::span<double> rate,
                               BookRates* books) {
-  const mjModel* m = model_.get();
+  const mjModel* m = model_;
   mjData* d = data_.get();
-  const Matrix3d dcm_NW = placement_ == Placement::kAligned
+  const Matrix3d dcm_NW = machine_->placement == Placement::kAligned
                               ? dcm_of(state.data() + StateLayout::attitude())
                               : Matrix3d::Identity();
   drain(time);
-  exchange_.hand_over(state.data(), placement_, *d);
+  machine_->exchange.hand_over(state.data(), machine_->placement, *d);
   mj_kinematics(m, d);
-  align_round_wheels(round_wheels_, *d);
+  align_round_wheels(machine_->round_wheels, *d);
   mj_comPos(m, d);
   mj_comVel(m, d);
   const double* applied = held_.data();
   Found found;
-  if (law_ != GravityLaw::kNone || acts()) {
+  if (machine_->law != GravityLaw::kNone || acts()) {
     found = find_forces(time, state, dcm_NW, books != nullptr);
     if (acts()) {
       std::ranges::copy(held_, applied_.begin());
@@ -203,16 +171,16 @@ void MujocoEngine::derivative(double time, std::span<const double> state, std::s
   mj_crb(m, d);
   mj_factorM(m, d);
   mj_rne(m, d, 0, d->qfrc_bias);
-  passive_.apply(*d);
+  machine_->passive.apply(*d);
   for (int i = 0; i < m->nv; ++i) d->qacc[i] = d->qfrc_passive[i] - d->qfrc_bias[i] + applied[i];
   mj_solveM(m, d, d->qacc, d->qacc, 1);
-  const double sum =
-      exchange_.take_back(state.data(), dcm_NW * Input(d->qacc) + found.fall_N, *d, rate.data());
+  const double sum = machine_->exchange.take_back(
+      state.data(), dcm_NW * Input(d->qacc) + found.fall_N, *d, rate.data());
   // A singular mass matrix only warns, and MuJoCo goes on with a made-up pivot.
   if (!std::isfinite(sum) || d->warning[mjWARN_INERTIA].number > 0) fail(state, rate);
   if (books == nullptr) return;
-  *books = placement_ == Placement::kAligned ? book_rates(state, dcm_NW, found)
-                                             : centred_book_rates(time, state);
+  *books = machine_->placement == Placement::kAligned ? book_rates(state, dcm_NW, found)
+                                                      : centred_book_rates(time, state);
 }
 
 // One bad entry spoils all accelerations, so the state is searched for the culprit first.
@@ -221,14 +189,15 @@ void MujocoEngine::fail(std::span<const double> state, std::span<const double> r
   const mjWarningStat singular = std::exchange(data_->warning[mjWARN_INERTIA], {});
   std::string what;
   if (const auto x = std::ranges::find_if(state, bad); x != state.end()) {
-    what = exchange_.name(static_cast<int>(x - state.begin())) + " is not finite";
+    what = machine_->exchange.name(static_cast<int>(x - state.begin())) + " is not finite";
   } else if (singular.number > 0) {
     const int joint = model_->dof_jntid[singular.lastinfo];
-    what = fmt::format("the mass matrix is singular at `{}`",
-                       mj_id2name(model_.get(), mjOBJ_JOINT, joint));
+    what =
+        fmt::format("the mass matrix is singular at `{}`", mj_id2name(model_, mjOBJ_JOINT, joint));
   } else {
     const auto r = std::ranges::find_if(rate, bad);
-    what = exchange_.name(static_cast<int>(r - rate.begin())) + " has a rate that is not finite";
+    what = machine_->exchange.name(static_cast<int>(r - rate.begin())) +
+           " has a rate that is not finite";
   }
   throw NumericalFailure(what);
 }
@@ -241,7 +210,7 @@ void MujocoEngine::gather_poses() {
   using Rotation = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>;
   const Input r_BO_N(data_->xpos + 3 * kHubBody);
   for (std::size_t i = 0; i < poses_.size(); ++i) {
-    const int body = map_.link_body[i];
+    const int body = machine_->map.link_body[i];
     poses_[i].dcm_WL = Rotation(data_->xmat + 9 * body);
     poses_[i].r_LB_W = Input(data_->xpos + 3 * body) - r_BO_N;
   }
@@ -271,11 +240,11 @@ MujocoEngine::Found MujocoEngine::find_forces(double time, std::span<const doubl
 
 // The vehicle at `state`, centred in any frame: what is observed is not what is tested.
 void MujocoEngine::move_to(std::span<const double> state) {
-  exchange_.hand_over(state.data(), Placement::kCentred, *data_);
-  mj_kinematics(model_.get(), data_.get());
-  align_round_wheels(round_wheels_, *data_);
-  mj_comPos(model_.get(), data_.get());
-  mj_comVel(model_.get(), data_.get());
+  machine_->exchange.hand_over(state.data(), Placement::kCentred, *data_);
+  mj_kinematics(model_, data_.get());
+  align_round_wheels(machine_->round_wheels, *data_);
+  mj_comPos(model_, data_.get());
+  mj_comVel(model_, data_.get());
 }
 
 void MujocoEngine::observe(double time, std::span<const double> state, Observation& seen) {
@@ -291,7 +260,7 @@ void MujocoEngine::observe(double time, std::span<const double> state, Observati
   seen.mass = sums.mass;
   seen.kinetic = sums.kinetic;
   seen.own_kinetic = sums.own_kinetic;
-  seen.springs = passive_.spring_energy(*data_);
+  seen.springs = machine_->passive.spring_energy(*data_);
   seen.potential = seen.springs + forces_.potential(seen.r_BN_N, poses_);
   seen.momentum = sums.momentum;
   seen.H_PntC_N = sums.H_PntC_N;
@@ -333,7 +302,7 @@ void MujocoEngine::add_leaving(const Vector3d& r_BN_W, const Vector3d& v_BN_W,
                                const Matrix3d& dcm_NW, const BodyCenter& center,
                                BookRates& rates) const {
   const std::span<const double> share_rates = propellant_.share_rates();
-  const LeavingSums left = draining_.leaving(*model_, *data_, v_BN_W, center, share_rates);
+  const LeavingSums left = machine_->draining.leaving(*model_, *data_, v_BN_W, center, share_rates);
   rates.force_N += dcm_NW * left.momentum;
   rates.torque_PntC_N += dcm_NW * left.H_PntC_W;
   rates.power += left.kinetic + forces_.potential_rate(r_BN_W, poses_, share_rates);
@@ -347,7 +316,7 @@ void MujocoEngine::gather_rates(std::span<const int> links) {
   const Input v_BO_W(data_->qvel);
   for (const int link : links) {
     const auto i = static_cast<std::size_t>(link);
-    const int body = map_.link_body[i];
+    const int body = machine_->map.link_body[i];
     const Vector3d omega = Input(data_->cvel + 6 * body);
     const Vector3d r_LC_W = Input(data_->xpos + 3 * body) - r_CO_W;
     link_rates_[i] = {omega, Input(data_->cvel + 6 * body + 3) - v_BO_W + omega.cross(r_LC_W)};
@@ -356,7 +325,7 @@ void MujocoEngine::gather_rates(std::span<const int> links) {
 
 // Motors and efforts, less what the dampers take; a wheel's bearing has no friction.
 double MujocoEngine::joint_power() const {
-  double power = -passive_.damper_power(*data_);
+  double power = -machine_->passive.damper_power(*data_);
   for (int i = kHubDofs; i < model_->nv; ++i) {
     power += held_[static_cast<std::size_t>(i)] * data_->qvel[i];
   }
@@ -366,24 +335,26 @@ double MujocoEngine::joint_power() const {
 // MuJoCo's degrees of freedom in our order.
 std::vector<int> MujocoEngine::dof_order() const {
   std::vector<int> order = {0, 1, 2, 3, 4, 5};
-  order.insert(order.end(), map_.joint_dof.begin(), map_.joint_dof.end());
-  order.insert(order.end(), map_.wheel_dof.begin(), map_.wheel_dof.end());
+  order.insert(order.end(), machine_->map.joint_dof.begin(), machine_->map.joint_dof.end());
+  order.insert(order.end(), machine_->map.wheel_dof.begin(), machine_->map.wheel_dof.end());
   return order;
 }
 
 Eigen::MatrixXd MujocoEngine::mass_matrix(std::span<const double> state) {
+  drain(held_since_);
   move_to(state);
-  mj_crb(model_.get(), data_.get());
+  mj_crb(model_, data_.get());
   Eigen::MatrixXd mass(model_->nv, model_->nv);
-  mj_fullM(model_.get(), mass.data(), data_->qM);
+  mj_fullM(model_, mass.data(), data_->qM);
   const std::vector<int> order = dof_order();
   return mass(order, order);
 }
 
 RoundingTerms MujocoEngine::rounding_terms(std::span<const double> state) {
+  drain(held_since_);
   move_to(state);
   std::fill_n(data_->qfrc_passive, model_->nv, 0.0);
-  passive_.apply(*data_);
+  machine_->passive.apply(*data_);
   const RoundingTerms terms = inertia_terms(*model_, *data_);
   const std::vector<int> order = dof_order();
   return {terms.mass(order, order), terms.force(order)};
@@ -393,7 +364,7 @@ RoundingTerms MujocoEngine::rounding_terms(std::span<const double> state) {
 
 std::unique_ptr<Engine> make_mujoco_engine(const Model& model, const std::string& mjcf) {
   if (model.simulation.translation) return make_mujoco_point_mass_engine(model, mjcf);
-  return std::make_unique<MujocoEngine>(model, mjcf);
+  return std::make_unique<MujocoEngine>(std::make_shared<const MujocoMachine>(model, mjcf));
 }
 
 }  // namespace twincraft

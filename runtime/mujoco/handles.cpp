@@ -94,6 +94,17 @@ MujocoModel load_mjcf(const std::string& mjcf) {
   return model;
 }
 
+void hide_pictures(mjModel& model) {
+  model.ngeom = 0;
+  model.nsite = 0;
+}
+
+MujocoModel copy_of(const mjModel& model) {
+  MujocoModel copy(mj_copyModel(nullptr, &model));
+  if (!copy) throw NumericalFailure("mujoco: no memory for the model");
+  return copy;
+}
+
 MujocoData make_data(const mjModel& model) {
   MujocoData data(mj_makeData(&model));
   if (!data) throw NumericalFailure("mujoco: no memory for the model's data");

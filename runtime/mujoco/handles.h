@@ -24,6 +24,12 @@ using MujocoData = std::unique_ptr<mjData, MujocoDataDeleter>;
 /// @throws NumericalFailure with MuJoCo's own words
 MujocoModel load_mjcf(const std::string& mjcf);
 
+/// Pictures and markers are for `simulate`; here mj_kinematics would only carry them along.
+void hide_pictures(mjModel& model);
+
+/// @pre its pictures are not hidden @throws NumericalFailure when there is no memory for it
+MujocoModel copy_of(const mjModel& model);
+
 /// @throws NumericalFailure when there is no memory for it
 MujocoData make_data(const mjModel& model);
 

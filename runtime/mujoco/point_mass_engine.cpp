@@ -18,17 +18,16 @@ class MujocoPointMass final : public PointMassEngine {
   MujocoPointMass(const Model& model, const std::string& mjcf)
       : PointMassEngine(model, model.gravity.mujoco),
         raw_(model.engines.frame == MujocoFrame::kInertial),
-        model_(load_mjcf(mjcf)),
-        data_(make_data(*model_)) {
-    if (model_->nq != 3 || model_->nv != 3) {
-      throw NumericalFailure("mujoco: the MJCF is not that of a point mass");
-    }
-    restore_exact_masses(model.tree, *model_);
-    model_->ngeom = 0;  // pictures are for viewers
-    model_->nsite = 0;
-  }
+        model_(load(model, mjcf)),
+        data_(make_data(*model_)) {}
+  MujocoPointMass(const MujocoPointMass& other)
+      : PointMassEngine(other), raw_(other.raw_), model_(other.model_), data_(make_data(*model_)) {}
+  MujocoPointMass& operator=(const MujocoPointMass&) = delete;
 
   std::string_view name() const override { return kMujocoKey; }
+  std::unique_ptr<Engine> another() const override {
+    return std::make_unique<MujocoPointMass>(*this);
+  }
 
   Eigen::MatrixXd mass_matrix(std::span<const double>) override {
     place(Vector3d::Zero(), Vector3d::Zero());
@@ -39,6 +38,15 @@ class MujocoPointMass final : public PointMassEngine {
   }
 
  private:
+  static std::shared_ptr<const mjModel> load(const Model& model, const std::string& mjcf) {
+    MujocoModel loaded = load_mjcf(mjcf);
+    if (loaded->nq != 3 || loaded->nv != 3)
+      throw NumericalFailure("mujoco: the MJCF is not that of a point mass");
+    restore_exact_masses(model.tree, *loaded);
+    hide_pictures(*loaded);
+    return loaded;
+  }
+
   Vector3d acceleration(const Vector3d& r_BN_N, const Vector3d& v_BN_N) override {
     const mjModel* m = model_.get();
     mjData* d = data_.get();
@@ -66,7 +74,7 @@ class MujocoPointMass final : public PointMassEngine {
   }
 
   bool raw_;
-  MujocoModel model_;
+  std::shared_ptr<const mjModel> model_;
   MujocoData data_;
 };
 

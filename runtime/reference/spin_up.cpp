@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "runtime/engine/measure.h"
+#include "compiler/ir/angle.h"
 
 namespace twincraft {
 namespace {

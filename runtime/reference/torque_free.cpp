@@ -12,7 +12,7 @@
 #include <limits>
 #include <utility>
 
-#include "runtime/engine/measure.h"
+#include "compiler/ir/angle.h"
 
 namespace twincraft {
 namespace {

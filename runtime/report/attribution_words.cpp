@@ -2,7 +2,6 @@
 #include "runtime/report/attribution_words.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <array>
 #include <cmath>

@@ -169,6 +169,11 @@ class Ldl {
 inline Vec<double> vec(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 inline Mat<double> mat(const Matrix3d& m) { return {vec(m.col(0)), vec(m.col(1)), vec(m.col(2))}; }
 inline Vector3d eigen(const Vec<double>& v) { return {v.x, v.y, v.z}; }
+inline Matrix3d eigen(const Sym<double>& m) {
+  Matrix3d full;
+  full << m.xx, m.xy, m.xz, m.xy, m.yy, m.yz, m.xz, m.yz, m.zz;
+  return full;
+}
 
 /// From Eigen, into one lane or into all.
 template <class S>

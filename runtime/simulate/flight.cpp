@@ -7,7 +7,6 @@
 #include <array>
 #include <cstdint>
 #include <limits>
-#include <utility>
 
 #include "runtime/integrate/engine_ode.h"
 
@@ -102,9 +101,10 @@ Flight::Flight(Engine& engine, const Model& model, FlightOptions options)
           options.has_end ? model.simulation.duration : std::numeric_limits<double>::infinity(),
           events_of(model, options.has_end)),
       feed_(model) {
-  engine.hold(feed_.begin(0.0));
+  hold(feed_.begin(0.0));
   std::ranges::copy(engine.initial_state(), stepper_.state().begin());
   if (options.steps_back) last_good_ = stepper_.solution();
+  is_careful_ = last_good_ || excusing_;
 }
 
 Flight::~Flight() = default;
@@ -123,10 +123,10 @@ Books Flight::books() const {
 void Flight::advance(const std::atomic<bool>* stop) {
   Landings::Position after = landings_.position();
   const Landing landing = landings_.follow(after);
-  if (fly_until_empty(landing.time, stop)) return;
+  if (empty_at_ < landing.time) return fly_until_empty(stop);
   step_to(landing.time, stop);
   landings_.go_on_from(after);
-  if (landing.is_event) engine_.hold(feed_.begin(landing.time));
+  if (landing.is_event) hold(feed_.begin(landing.time));
 }
 
 void Flight::advance_on_grid() {
@@ -137,37 +137,41 @@ void Flight::advance_on_grid() {
 void Flight::advance_to(double time) {
   while (!done() && next_landing() < time - tolerance()) advance();
   if (done() || time <= time_ + tolerance()) return;
-  while (fly_until_empty(time, nullptr)) {
-  }
+  while (empty_at_ < time) fly_until_empty(nullptr);
   Landings::Position after = landings_.position();
   const Landing landing = landings_.follow(after);
   step_to(time, nullptr);
   if (landing.time > time + tolerance()) return;
   landings_.go_on_from(after);
-  if (landing.is_event) engine_.hold(feed_.begin(landing.time));
+  if (landing.is_event) hold(feed_.begin(landing.time));
 }
 
-bool Flight::fly_until_empty(double time, const std::atomic<bool>* stop) {
-  const double empty = feed_.empty_at();
-  if (!(empty < time)) return false;
-  if (empty > time_) step_to(empty, stop);
-  if (time_ >= empty) engine_.hold(feed_.stop_empty(empty));
-  return true;
+void Flight::fly_until_empty(const std::atomic<bool>* stop) {
+  if (empty_at_ > time_) step_to(empty_at_, stop);
+  if (time_ >= empty_at_) hold(feed_.stop_empty(empty_at_));
+}
+
+void Flight::hold(const Inputs& inputs) {
+  engine_.hold(inputs);
+  empty_at_ = feed_.empty_at();
 }
 
 void Flight::step_to(double time, const std::atomic<bool>* stop) {
-  if (!last_good_) return step_or_fail(time, stop);
-  *last_good_ = stepper_.solution();
+  if (is_careful_) return step_carefully(time, stop);
+  step_once(time);
+}
+
+void Flight::step_carefully(double time, const std::atomic<bool>* stop) {
+  if (last_good_) *last_good_ = stepper_.solution();
   try {
-    step_or_fail(time, stop);
+    excusing_ ? step_adaptively(time, stop) : step_once(time);
   } catch (const NumericalFailure&) {
-    stepper_.go_on_from(*last_good_);
+    if (last_good_) stepper_.go_on_from(*last_good_);
     throw;
   }
 }
 
-void Flight::step_or_fail(double time, const std::atomic<bool>* stop) {
-  if (excusing_) return step_adaptively(time, stop);
+void Flight::step_once(double time) {
   stepper_.step(time_, time - time_);
   counts_.evaluations += stepper_.tableau().stages;
   ++counts_.accepted;
@@ -190,11 +194,9 @@ void Flight::fail() const {
   throw NumericalFailure(fmt::format("`{}` is not finite", names_[entry]), names_[entry]);
 }
 
-void Flight::drive(std::size_t port, double value) {
-  engine_.hold(feed_.drive(port, value, time_));
-}
+void Flight::drive(std::size_t port, double value) { hold(feed_.drive(port, value, time_)); }
 
-void Flight::release(std::size_t port) { engine_.hold(feed_.release(port, time_)); }
+void Flight::release(std::size_t port) { hold(feed_.release(port, time_)); }
 
 Flight::Snapshot Flight::snapshot() const {
   return {time_, stepper_.solution(), landings_.position(), feed_.position(), counts_, accepted_};
@@ -207,7 +209,7 @@ void Flight::restore(const Snapshot& snapshot) {
   feed_.go_on_from(snapshot.inputs);
   counts_ = snapshot.counts;
   accepted_ = snapshot.accepted;
-  engine_.hold(feed_.inputs());
+  hold(feed_.inputs());
 }
 
 }  // namespace twincraft

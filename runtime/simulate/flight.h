@@ -95,11 +95,13 @@ class Flight {
   class BookkeepingOde;
   class ExcusingOde;
 
-  /// To the next time before `time` at which a tank runs empty, and stop what draws from it.
-  /// @return whether there was one
-  bool fly_until_empty(double time, const std::atomic<bool>* stop);
-  void step_or_fail(double time, const std::atomic<bool>* stop);
+  void hold(const Inputs& inputs);
+  /// To where a tank runs empty, and stop what draws from it.
+  void fly_until_empty(const std::atomic<bool>* stop);
   void step_to(double time, const std::atomic<bool>* stop);
+  /// What is not a plain step of an engine that may end beyond its last good one.
+  void step_carefully(double time, const std::atomic<bool>* stop);
+  void step_once(double time);
   void step_adaptively(double to, const std::atomic<bool>* stop);
   [[noreturn]] void fail() const;
 
@@ -112,7 +114,9 @@ class Flight {
   Landings landings_;
   InputFeed feed_;
   std::optional<RungeKutta::Solution> last_good_;  // of a flight that steps back
+  bool is_careful_ = false;                        // its steps are more than steps
   double time_ = 0.0;
+  double empty_at_ = 0.0;  // [s] when the first tank runs empty; infinite: none does
   StepCounts counts_;
   AcceptedErrors accepted_;
 };

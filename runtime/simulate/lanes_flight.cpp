@@ -51,10 +51,10 @@ std::size_t LanesFlight::lanes() { return bsm::batch_lanes(bsm::best_instruction
 LanesFlight::LanesFlight(const Model& model, const bsm::Plan& plan)
     : model_(model),
       layout_(layout_of(model)),
-      plans_(lanes(), &plan),
       feeds_(lanes(), InputFeed(model)),
       held_(lanes(), bsm::HeldInputs::none(model.assembly)),
-      kernel_(bsm::make_batch_kernel(plans_, bsm::best_instruction_set())),
+      kernel_(bsm::make_batch_kernel(std::vector<const bsm::Plan*>(lanes(), &plan),
+                                     bsm::best_instruction_set())),
       ode_(std::make_unique<LanesOde>(*kernel_,
                                       layout_.size() * static_cast<int>(kernel_->lanes()))),
       stepper_(tableau_of(model.simulation.method), *ode_),
@@ -103,13 +103,13 @@ void LanesFlight::find_failures() {
 void LanesFlight::read_state(std::size_t lane, std::span<double> state) const {
   const Eigen::VectorXd& all = stepper_.solution().value;
   for (std::size_t i = 0; i < state.size(); ++i)
-    state[i] = all[static_cast<Eigen::Index>(i * plans_.size() + lane)];
+    state[i] = all[static_cast<Eigen::Index>(i * held_.size() + lane)];
 }
 
 void LanesFlight::set_state(std::size_t lane, std::span<const double> state) {
   RungeKutta::Solution solution = stepper_.solution();
   for (std::size_t i = 0; i < state.size(); ++i) {
-    const auto at = static_cast<Eigen::Index>(i * plans_.size() + lane);
+    const auto at = static_cast<Eigen::Index>(i * held_.size() + lane);
     solution.value[at] = state[i];
     solution.carry[at] = 0.0;
   }
@@ -129,7 +129,7 @@ void LanesFlight::hold() {
     held_[lane].set(feeds_[lane].inputs(), model_.loads);
     held.push_back(&held_[lane]);
   }
-  kernel_->hold(plans_, held);
+  kernel_->hold(held);
 }
 
 }  // namespace twincraft

@@ -23,7 +23,7 @@ class LanesFlight {
   /// Why they have to be flown one by one; empty: they need not.
   static std::string refusal(const Model& model);
 
-  /// All at t = 0. `model` and `plan`, which is made of it, must outlive it. @pre no refusal()
+  /// All at t = 0. `model` must outlive it. @param plan  made of it @pre no refusal()
   LanesFlight(const Model& model, const bsm::Plan& plan);
   ~LanesFlight();
   LanesFlight(const LanesFlight&) = delete;
@@ -55,8 +55,7 @@ class LanesFlight {
 
   const Model& model_;
   StateLayout layout_;
-  std::vector<const bsm::Plan*> plans_;  // one and the same for each lane
-  std::vector<InputFeed> feeds_;         // of each lane
+  std::vector<InputFeed> feeds_;  // of each lane
   std::vector<bsm::HeldInputs> held_;
   std::unique_ptr<bsm::Kernel> kernel_;
   std::unique_ptr<LanesOde> ode_;

@@ -6,10 +6,9 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <numbers>
 #include <string_view>
 
-#include "runtime/engine/measure.h"
+#include "compiler/ir/angle.h"
 
 namespace twincraft {
 namespace {

@@ -9,7 +9,7 @@
 #include <map>
 #include <tuple>
 
-#include "runtime/engine/measure.h"
+#include "compiler/ir/angle.h"
 
 namespace twincraft {
 namespace {

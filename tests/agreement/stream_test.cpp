@@ -32,16 +32,10 @@ const std::string kStudy = kTumbler + R"(study:
 
 class ScsimFolder : public testing::Test {
  protected:
-  ProgramResult run(const std::string& spec, std::vector<std::string> arguments) {
+  ProgramResult run(const std::string& spec, std::vector<std::string> arguments,
+                    const test::ProgramInput& input = {}) {
     arguments.insert(arguments.begin(), {spec, "--no-timing", "-o", folder.path() + "/out"});
-    return test::run_program(TWINCRAFT_SCSIM, arguments);
-  }
-  /// As run(), with so many KiB of memory for data.
-  ProgramResult run_within(const std::string& kib, const std::string& spec,
-                           std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), {"-c", "ulimit -d " + kib + "; exec \"$0\" \"$@\"",
-                                         TWINCRAFT_SCSIM, spec, "--no-timing"});
-    return test::run_program("/bin/sh", arguments);
+    return test::run_program(TWINCRAFT_SCSIM, arguments, input);
   }
   /// Everything in the folder, by name.
   std::vector<std::string> listing() const {
@@ -110,9 +104,10 @@ TEST_F(ScsimFolder, TakesAMillionSamplesInLittleMemory) {
   if (kSanitized) GTEST_SKIP();
   // As objects and text they would be half a gigabyte.
   const ProgramResult result =
-      run_within("200000", tumbler,
-                 {"--engine", "bsm", "--quiet", "-o", folder.path() + "/out",  //
-                  "--set", "simulation.record=0.001", "--step", "0.001", "--duration", "1000"});
+      run(tumbler,
+          {"--engine", "bsm", "--quiet", "--set", "simulation.record=0.001", "--step", "0.001",
+           "--duration", "1000"},
+          {.data = 200'000'000});
   EXPECT_EQ(result.exit_code, 0) << result.err;
   const json report = json::parse(folder.read("out/report.json"));
   EXPECT_EQ(report["members"][0]["engines"]["bsm"]["steps"], 1'000'000);
@@ -126,8 +121,7 @@ TEST_F(ScsimFolder, TakesNoMoreMemoryForMoreMembers) {
   for (int i = 2; i <= 1500; ++i) values += ", " + std::to_string(i);
   const std::string many = folder.write(
       "many.yaml", kTumbler + "study: {sweep: [{set: hub.mass, values: " + values + "]}]}\n");
-  const ProgramResult result =
-      run_within("150000", many, {"--quiet", "--jobs", "1", "-o", folder.path() + "/out"});
+  const ProgramResult result = run(many, {"--quiet", "--jobs", "1"}, {.data = 150'000'000});
   EXPECT_EQ(result.exit_code, 0) << result.err;
   const json report = json::parse(folder.read("out/report.json"));
   EXPECT_EQ(report["members"].size(), 1500U);

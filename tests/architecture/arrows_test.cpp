@@ -68,6 +68,11 @@ const std::map<std::string, Rooms> kArrows = {
      {"compiler", "compiler/diag", "compiler/files", "compiler/ir", "runtime/bsm",
       "runtime/compare", "runtime/engine", "runtime/linear", "runtime/report",
       "runtime/report/page", "runtime/simulate", "runtime/study"}},
+    // And what strangers see of it.
+    {"runtime/api",
+     {"compiler", "compiler/analysis", "compiler/diag", "compiler/ir", "compiler/units",
+      "runtime/bsm", "runtime/compare", "runtime/delivery", "runtime/engine", "runtime/report",
+      "runtime/simulate", "runtime/api/include"}},
 };
 
 std::string folder_of(const std::string& file) {

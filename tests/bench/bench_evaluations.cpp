@@ -69,7 +69,7 @@ class Batch final : public Ode {
     const std::vector<const bsm::Plan*> plans(lanes_, &plan_);
     const std::vector<const bsm::HeldInputs*> held(lanes_, &held_);
     kernel_ = bsm::make_batch_kernel(plans, set);
-    kernel_->hold(plans, held);
+    kernel_->hold(held);
     const Eigen::VectorXd one = make_bsm_engine(model)->initial_state();
     initial_ = one.transpose().replicate(static_cast<Eigen::Index>(lanes_), 1).reshaped();
   }
@@ -78,8 +78,8 @@ class Batch final : public Ode {
   const Eigen::VectorXd& initial_state() const { return initial_; }
 
   int size() const override { return static_cast<int>(initial_.size()); }
-  void derivative(double, std::span<const double> state, std::span<double> rate) override {
-    kernel_->derivative(0.0, state.data(), rate.data());
+  void derivative(double time, std::span<const double> state, std::span<double> rate) override {
+    kernel_->derivative(time, state.data(), rate.data());
   }
   void finish_step(std::span<double> state) override { kernel_->finish_step(state.data()); }
 

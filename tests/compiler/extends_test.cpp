@@ -45,8 +45,8 @@ class Extends : public testing::Test {
     std::optional<Node> root = parse(source, diagnostics_);
     if (!root) return false;
     root_ = std::move(*root);
-    text_of_all_ = resolve_extends(root_, source, file("root.yaml"), sources_, diagnostics_);
-    return text_of_all_.has_value();
+    whole_ = resolve_extends(root_, source, file("root.yaml"), sources_, diagnostics_);
+    return whole_.has_value();
   }
 
   std::string said() const { return to_text(diagnostics_, {}); }
@@ -67,7 +67,7 @@ class Extends : public testing::Test {
   Sources sources_;
   Diagnostics diagnostics_;
   Node root_;
-  std::optional<std::string> text_of_all_;
+  std::optional<Extended> whole_;
 };
 
 constexpr const char* kBase = R"(format: spacecraft/1
@@ -149,7 +149,7 @@ TEST_F(Extends, FollowsAChainFromTheFolderOfEachFile) {
   ASSERT_TRUE(resolve("extends: below/base.yaml\nname: own\n")) << said();
   EXPECT_EQ(at({"hub", "mass"}).scalar, "2");
   EXPECT_THAT(names(at({"wheels"})), ElementsAre("rw_x"));
-  EXPECT_EQ(*text_of_all_,
+  EXPECT_EQ(whole_->text,
             "extends: below/base.yaml\nname: own\n"
             "extends: deeper/first.yaml\ndrop: [rw_y]\nhub: {mass: 2}\n" +
                 std::string(kBase));

@@ -8,6 +8,7 @@
 #include "compiler/ir/mass.h"
 #include "compiler/ir/number.h"
 #include "compiler/ir/propellant.h"
+#include "compiler/ir/rotation.h"
 #include "compiler/ir/schedule.h"
 #include "compiler/ir/signals.h"
 
@@ -62,6 +63,22 @@ TEST(PrincipalInertia, RebuildsRandomTensorsToRounding) {
     const Matrix3d R = p.axes.toRotationMatrix();
     EXPECT_NEAR(R.determinant(), 1.0, 1e-14);
     EXPECT_LT((R * p.moments.asDiagonal() * R.transpose() - I).norm(), 1e-14 * I.norm());
+  }
+}
+
+TEST(ShortestRotation, TakesOneDirectionToAnyOther) {
+  std::mt19937_64 random(11);
+  std::normal_distribution<double> normal;
+  const Vector3d from(0.0, 0.0, 2.0);
+  std::vector<Vector3d> directions{from, -from, {3.0, 0.0, 0.0}, {1.0e-13, 0.0, -1.0}};
+  for (int i = 0; i < 100; ++i)
+    directions.emplace_back(normal(random), normal(random), normal(random));
+  for (const Vector3d& to : directions) {
+    const Quaterniond rotation = shortest_rotation(from, to);
+    EXPECT_NEAR(rotation.norm(), 1.0, 1.0e-12);
+    // Its axis is across both; within 1e-12 of a half turn any such axis will do.
+    EXPECT_LT(std::abs(rotation.vec().dot(from)), 1.0e-12) << to.transpose();
+    EXPECT_LT((rotation * from.normalized() - to.normalized()).norm(), 1.0e-12) << to.transpose();
   }
 }
 

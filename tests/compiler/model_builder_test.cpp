@@ -154,8 +154,8 @@ TEST(ModelBuilder, CarriesAMasslessWheelOfAFixedBodyOnThatBodysElement) {
 TEST(ModelBuilder, TurnsALoadOnAFixedBodyIntoTheAxesOfItsLink) {
   ModelBuilder builder = bracket_on_boom();
   Load load;
-  load.force_L[0].entries = {{1.0, 2.0}, {3.0, 0.0}};
-  load.force_L[1] = Schedule::constant(0.5);
+  load.force_M[0].entries = {{1.0, 2.0}, {3.0, 0.0}};
+  load.force_M[1] = Schedule::constant(0.5);
   load.r_FL_L = Vector3d(0.1, 0.0, 0.0);
   builder.add_load(builder.find_mount("bracket"), load);
   const Model model = std::move(builder).build();

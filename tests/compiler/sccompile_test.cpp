@@ -231,6 +231,47 @@ TEST_F(Sccompile, SaysWhichFlagsHaveNoEffect) {
   EXPECT_EQ(compile(kQuickstart).err, "");
 }
 
+TEST_F(Sccompile, WritesARuleOfWhatItReadForBuildTools) {
+  fs::create_directory(folder.path() + "/far #1");
+  folder.write("far #1/base.yaml", read_file(TWINCRAFT_ROOT "/models/quickstart.yaml"));
+  const std::string spec =
+      folder.write("a spec$.yaml", "extends: \"far #1/base.yaml\"\nname: near\n");
+  const std::string rule = folder.path() + "/deep/near.d";
+  const ProgramResult run = compile(spec, {"--emit", "mjcf,resolved", "--depfile", rule});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const std::string here = folder.path();
+  EXPECT_EQ(read_file(rule), here + "/out/near.xml " + here + "/out/near.resolved.yaml: \\\n  " +
+                                 here + "/a\\ spec$$.yaml \\\n  " + here +
+                                 "/far\\ \\#1/base.yaml\n");
+  EXPECT_EQ(files(), 2);
+  const std::string before = read_file(rule);
+  EXPECT_EQ(compile(spec, {"--depfile", rule, "--set", "hub.mass=-5"}).exit_code, 1);
+  EXPECT_EQ(read_file(rule), before);
+}
+
+TEST_F(Sccompile, NamesTheFileThatALinkedFolderLeadsTo) {
+  fs::create_directories(folder.path() + "/deep/er");
+  folder.write("deep/er/own.yaml", "extends: ../base.yaml\nname: own\n");
+  folder.write("deep/base.yaml", read_file(TWINCRAFT_ROOT "/models/quickstart.yaml"));
+  folder.write(".twincraft", "");
+  fs::create_directory_symlink("deep/er", folder.path() + "/link");
+  const ProgramResult run = compile(folder.path() + "/link/own.yaml", {"--list", "inputs"});
+  EXPECT_EQ(run.out, folder.path() + "/link/own.yaml\n" +
+                         fs::canonical(folder.path() + "/deep/base.yaml").string() + "\n");
+}
+
+TEST_F(Sccompile, ListsWhatItReadsAndWritesAndWritesNothing) {
+  const ProgramResult inputs = compile(kQuickstart, {"--list", "inputs"});
+  EXPECT_EQ(inputs.out, kQuickstart + "\n");
+  const ProgramResult outputs = compile(kQuickstart, {"--emit", "dot,bsm", "--list", "outputs"});
+  const std::string stem = folder.path() + "/out/wheels_and_panels";
+  EXPECT_EQ(outputs.out, stem + ".dot\n" + stem + ".bsm.json\n");
+  EXPECT_EQ(inputs.exit_code + outputs.exit_code, 0) << inputs.err << outputs.err;
+  EXPECT_EQ(files(), 0);
+  const std::string text = read_file(TWINCRAFT_ROOT "/" + kQuickstart);
+  EXPECT_EQ(sccompile({"-", "--list", "inputs"}, {.standard_input = text}).out, "");
+}
+
 TEST_F(Sccompile, BlamesTheSpecForAPathOfItsStudy) {
   EXPECT_EQ(compile("tests/malformed/study_path_malformed.yaml").exit_code, 1);
   EXPECT_EQ(sccompile({kQuickstart, "--set", "hub..mass=1"}).exit_code, 2);
@@ -306,6 +347,18 @@ INSTANTIATE_TEST_SUITE_P(
               "did you mean `json`?"},
         Usage{"no_value", {"x.yaml", "--set"}, "--set", "`sccompile --help`"},
         Usage{"bad_count", {"x.yaml", "--max-errors", "many"}, "", "`sccompile --help`"},
+        Usage{"unknown_list",
+              {"x.yaml", "--list", "input"},
+              "--list: `input` is none of inputs|outputs",
+              "`sccompile --help`"},
+        Usage{"depfile_of_nothing",
+              {"x.yaml", "-o", "-", "--emit", "bsm", "--depfile", "x.d"},
+              "`--depfile` names the files that are written",
+              "write to a folder"},
+        Usage{"mixed_lists",
+              {"x.yaml", "--list", "inputs", "--diagnostics", "json"},
+              "`--list` and `--diagnostics` both",
+              "leave"},
         Usage{"mixed_streams",
               {"x.yaml", "-o", "-", "--emit", "bsm", "--diagnostics", "json"},
               "`-o -` and `--diagnostics` both",

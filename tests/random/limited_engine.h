@@ -17,6 +17,7 @@ class LimitedEngine : public Engine {
 
   std::string_view name() const override { return engine_.name(); }
   const StateLayout& layout() const override { return engine_.layout(); }
+  std::unique_ptr<Engine> another() const override { return engine_.another(); }  // without limits
   Eigen::VectorXd initial_state() const override { return engine_.initial_state(); }
   void hold(const Inputs& inputs) override { engine_.hold(inputs); }
   void derivative(double time, std::span<const double> state, std::span<double> rate,

@@ -69,7 +69,8 @@ struct Fleet {
   std::vector<const bsm::Plan*> plan_of;
   std::vector<const bsm::HeldInputs*> held_of;
 
-  Fleet(std::size_t count, int joints, int rotors, unsigned seed) {
+  /// @param drains  the first element of every link does, in each spacecraft as fast as it likes
+  Fleet(std::size_t count, int joints, int rotors, unsigned seed, bool drains = false) {
     for (std::size_t l = 0; l < count; ++l) {
       // The same numbers but for what differs between the lanes: masses and places.
       std::mt19937_64 random(seed);
@@ -83,9 +84,13 @@ struct Fleet {
           element.I_PntE_L *= scale;
         }
         link.joint.r_HP_P += test::random_vector(other, 0.1);
+        if (drains) link.elements.front().tank = 0;
       }
       states.push_back(test::random_state(other, assembly));
       held.push_back(test::inputs_of(assembly));
+      if (drains)
+        held.back().inputs.tanks = {
+            {.full = 10.0, .spent = uniform(other), .since = -0.1, .flow = uniform(other)}};
       plans.push_back(bsm::make_plan(assembly, AttitudeChart::kMrp, gravity(), {}));
       assemblies.push_back(std::move(assembly));
     }
@@ -118,38 +123,46 @@ Eigen::VectorXd flown(bsm::Kernel& kernel, const Eigen::VectorXd& initial) {
   return Eigen::VectorXd::Map(stepper.state().data(), initial.size());
 }
 
-TEST(Batch, FliesEveryLaneAsASingleSpacecraft) {
+void expect_every_lane_flies_alone(const InstructionSet set, bool drains) {
   const Vector3d r_BN(30.0, -40.0, 20.0);
-  for (const InstructionSet set : sets_of_this_processor()) {
-    const std::size_t lanes = bsm::batch_lanes(set);
-    const Fleet fleet(lanes, 6, 2, 43);
-    const auto batch = bsm::make_batch_kernel(fleet.plan_of, set);
-    ASSERT_EQ(batch->lanes(), lanes);
-    batch->hold(fleet.plan_of, fleet.held_of);
-    const Eigen::Index size = test::kernel_state(fleet.states[0], r_BN).size();
-    Eigen::MatrixXd side_by_side(static_cast<Eigen::Index>(lanes), size);
-    for (std::size_t l = 0; l < lanes; ++l) {
-      side_by_side.row(static_cast<Eigen::Index>(l)) =
-          test::kernel_state(fleet.states[l], r_BN).transpose();
-    }
-    const Eigen::VectorXd flat = side_by_side.reshaped();
-    const Eigen::VectorXd ends = flown(*batch, flat);
-    for (std::size_t l = 0; l < lanes; ++l) {
-      const auto single = bsm::make_kernel(fleet.plans[l], set);
-      single->hold({&fleet.plan_of[l], 1}, {&fleet.held_of[l], 1});
-      const Eigen::VectorXd end = flown(*single, test::kernel_state(fleet.states[l], r_BN));
-      const Eigen::VectorXd ours =
-          ends.reshaped(static_cast<Eigen::Index>(lanes), size).row(static_cast<Eigen::Index>(l));
-      EXPECT_LT((ours - end).norm(), 1e-14 * end.norm()) << name_of(set) << ", lane " << l;
-    }
+  const std::size_t lanes = bsm::batch_lanes(set);
+  const Fleet fleet(lanes, 6, 2, 43, drains);
+  const auto batch = bsm::make_batch_kernel(fleet.plan_of, set);
+  ASSERT_EQ(batch->lanes(), lanes);
+  batch->hold(fleet.held_of);
+  const Eigen::Index size = test::kernel_state(fleet.states[0], r_BN).size();
+  Eigen::MatrixXd side_by_side(static_cast<Eigen::Index>(lanes), size);
+  for (std::size_t l = 0; l < lanes; ++l) {
+    side_by_side.row(static_cast<Eigen::Index>(l)) =
+        test::kernel_state(fleet.states[l], r_BN).transpose();
   }
+  const Eigen::VectorXd flat = side_by_side.reshaped();
+  const Eigen::VectorXd ends = flown(*batch, flat);
+  for (std::size_t l = 0; l < lanes; ++l) {
+    const auto single = bsm::make_kernel(fleet.plans[l], set);
+    single->hold({&fleet.held_of[l], 1});
+    const Eigen::VectorXd end = flown(*single, test::kernel_state(fleet.states[l], r_BN));
+    const Eigen::VectorXd ours =
+        ends.reshaped(static_cast<Eigen::Index>(lanes), size).row(static_cast<Eigen::Index>(l));
+    EXPECT_LT((ours - end).norm(), 1e-14 * end.norm()) << name_of(set) << ", lane " << l;
+  }
+}
+
+TEST(Batch, FliesEveryLaneAsASingleSpacecraft) {
+  for (const InstructionSet set : sets_of_this_processor())
+    expect_every_lane_flies_alone(set, false);
+}
+
+TEST(Batch, HasTanksOfItsOwnInEveryLane) {
+  for (const InstructionSet set : sets_of_this_processor())
+    expect_every_lane_flies_alone(set, true);
 }
 
 TEST(Batch, TakesNothingFromTheHeapInADerivative) {
   const InstructionSet set = bsm::best_instruction_set();
-  const Fleet fleet(bsm::batch_lanes(set), 6, 2, 47);
+  const Fleet fleet(bsm::batch_lanes(set), 6, 2, 47, true);
   const auto batch = bsm::make_batch_kernel(fleet.plan_of, set);
-  batch->hold(fleet.plan_of, fleet.held_of);
+  batch->hold(fleet.held_of);
   const Eigen::Index size = test::kernel_state(fleet.states[0]).size();
   Eigen::VectorXd state =
       Eigen::VectorXd::Constant(size * static_cast<Eigen::Index>(fleet.plans.size()), 0.1);

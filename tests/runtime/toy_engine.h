@@ -26,6 +26,7 @@ class ToyEngine : public Engine {
 
   std::string_view name() const override { return "toy"; }
   const StateLayout& layout() const override { return layout_; }
+  std::unique_ptr<Engine> another() const override { return std::make_unique<ToyEngine>(model_); }
 
   Eigen::VectorXd initial_state() const override { return pack(model_.initial, layout_); }
 

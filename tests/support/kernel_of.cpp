@@ -35,9 +35,8 @@ KernelOf::KernelOf(const Assembly& assembly, ChainPath paths, const Gravity& gra
 
 Eigen::VectorXd KernelOf::accelerations(const OracleState& state, const bsm::HeldInputs& held,
                                         const Vector3d& r_BN_N) {
-  const bsm::Plan* plan = &plan_;
   const bsm::HeldInputs* inputs = &held;
-  kernel_->hold({&plan, 1}, {&inputs, 1});
+  kernel_->hold({&inputs, 1});
   const Eigen::VectorXd x = kernel_state(state, r_BN_N);
   Eigen::VectorXd rate(x.size());
   kernel_->derivative(0.0, x.data(), rate.data());

@@ -7,6 +7,7 @@
 #include <signal.h>
 #include <spawn.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
@@ -81,6 +82,7 @@ class Running {
     const Descriptor in = file_in_memory(input.standard_input);
     Pipe out, err;
     child_ = start(program, arguments, input, {in.get(), out.write.get(), err.write.get()});
+    if (input.data) limit_data(*input.data);
     out_ = std::move(out.read);
     err_ = std::move(err.read);
   }
@@ -131,6 +133,12 @@ class Running {
     posix_spawn_file_actions_destroy(&files);
     if (error != 0) throw std::runtime_error("cannot start " + program);
     return child;
+  }
+
+  /// It runs already, but all that it has counts whenever it asks for more.
+  void limit_data(std::size_t bytes) const {
+    const rlimit limit{bytes, bytes};
+    checked(prlimit(child_, RLIMIT_DATA, &limit, nullptr), "prlimit");
   }
 
   /// Blocks until the program writes or closes something.

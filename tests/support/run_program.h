@@ -4,8 +4,10 @@
 
 #include <sys/types.h>
 
+#include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,7 +26,8 @@ struct ProgramInput {
   /// What the program has written to standard error before that, a regular expression; empty:
   /// nothing need be.
   std::string awaited = {};
-  std::filesystem::path folder = {};  // where it runs; empty: here
+  std::filesystem::path folder = {};     // where it runs; empty: here
+  std::optional<std::size_t> data = {};  // most memory for data [bytes]; absent: no limit
   /// Where standard output goes instead of into the result.
   enum class Output { kKept, kClosed, kFullDevice } output = Output::kKept;
 };

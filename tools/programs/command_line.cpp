@@ -9,7 +9,6 @@
 #include <algorithm>
 
 #include "compiler/diag/diagnostics.h"
-#include "compiler/diag/terminal.h"
 #include "tools/programs/cli.h"
 
 namespace twincraft {

@@ -9,6 +9,7 @@
 #include <optional>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "compiler/diag/print.h"
@@ -18,12 +19,14 @@
 #include "runtime/delivery/compiled_spec.h"
 #include "runtime/delivery/spec_proof.h"
 #include "tools/programs/cli.h"
+#include "tools/programs/depfile.h"
 #include "tools/programs/progress.h"
 
 namespace twincraft {
 namespace {
 
 const std::vector<std::string> kFormats = {"text", "json", "sarif"};
+const std::vector<std::string> kLists = {"inputs", "outputs"};
 
 struct Options {
   CompileRequest request;
@@ -33,6 +36,8 @@ struct Options {
   int max_errors = static_cast<int>(PrintOptions{}.max_errors);
   std::vector<std::string> warnings;  // what stands after -W
   bool check = false;
+  std::string depfile;  // empty: none
+  std::string list;     // empty, or one of kLists
   std::string explain;
   bool schema = false;
   bool reference = false;
@@ -76,6 +81,10 @@ void describe(CommandLine& line, Options& options) {
   line.add_list("--set", options.request.overrides, "PATH=VALUE",
                 "change the spec first; repeatable");
   line.add_switch("--check", options.check, "write nothing; prove both targets to be one machine");
+  line.add_text("--depfile", options.depfile, "FILE",
+                "write what was read, as a Makefile rule of the results");
+  line.add_text("--list", options.list, "WHAT",
+                "write nothing; print the names of the `inputs` or `outputs`", {one_of(kLists)});
   line.add_text("--diagnostics", options.diagnostics, "FORMAT", "text (default), json or sarif");
   line.add_number("--max-errors", options.max_errors, 1, 1'000'000,
                   "show this many errors (default 50)");
@@ -86,7 +95,7 @@ void describe(CommandLine& line, Options& options) {
   line.add_version("sccompile " TWINCRAFT_VERSION);
   line.add_footer(
       "Results:\n" + target_lines() +
-      "\nExit: 0 done, 1 the spec has faults, 2 usage, 3 input/output, 4 internal failure.\n\n"
+      "\nExit: 0 done, 1 the spec has faults, 2 usage, 3 input/output, 4 internal failure.\n"
       "Example: sccompile models/quickstart.yaml -o out --set wheels.rw_x.speed='6000 rpm'");
 }
 
@@ -108,8 +117,14 @@ std::optional<int> refuse_bad_values(Options& options) {
   if (to_stdout && options.targets.size() != 1) {
     return usage("`-o -` writes a single result", "choose it, for example with `--emit mjcf`");
   }
-  if (to_stdout && options.diagnostics != "text") {
-    return usage("`-o -` and `--diagnostics` both want standard output", "write to a folder");
+  if (to_stdout && !options.depfile.empty()) {
+    return usage("`--depfile` names the files that are written, and `-o -` writes none",
+                 "write to a folder");
+  }
+  if ((to_stdout || !options.list.empty()) && options.diagnostics != "text") {
+    return usage(fmt::format("`{}` and `--diagnostics` both want standard output",
+                             to_stdout ? "-o -" : "--list"),
+                 to_stdout ? "write to a folder" : "leave `--diagnostics` out");
   }
   const bool needs_spec = !options.schema && !options.reference && options.explain.empty();
   if (needs_spec && options.request.file.empty()) {
@@ -125,9 +140,11 @@ void warn_of_idle_flags(const CommandLine& line, const Options& options) {
       if (line.has(name))
         complain(fmt::format("warning: `{}` has no effect with `{}`", name, busy));
   };
-  if (options.check) warn("--check", {"-o", "--emit"});
+  if (options.check) warn("--check", {"-o", "--emit", "--depfile", "--list"});
+  if (!options.list.empty()) warn("--list", {"--depfile"});
   for (const char* only : {"--schema", "--reference", "--explain"})
-    if (line.has(only)) warn(only, {"SPEC", "-o", "--emit", "--set", "--check"});
+    if (line.has(only))
+      warn(only, {"SPEC", "-o", "--emit", "--set", "--check", "--depfile", "--list"});
 }
 
 /// A document, for programs: its bytes reach them as they are.
@@ -147,24 +164,55 @@ int report(const Diagnostics& diagnostics, const Options& options) {
   return kExitDone;
 }
 
-int write_results(const Bundle& bundle, const Options& options) {
-  int code = kExitDone;
+struct Results {
   std::vector<OutputFile> files;
+  int code = kExitDone;  // kExitFindings when one cannot be written
+};
+
+Results results_of(const Bundle& bundle, const Options& options) {
+  Results results;
   for (const Target* target : options.targets) {
     const std::string name = fmt::format("{}{}", bundle.model.name, target->suffix);
     if (const std::string refusal = target->refusal(bundle.model); !refusal.empty()) {
       complain(fmt::format("`{}` is not written: {}", name, refusal));
-      code = kExitFindings;
+      results.code = kExitFindings;
       continue;
     }
-    const std::string& text = bundle.text(target->name);
-    if (options.folder == "-") return print(text);
-    files.push_back({(std::filesystem::path(options.folder) / name).string(), text});
+    results.files.push_back(
+        {(std::filesystem::path(options.folder) / name).string(), bundle.text(target->name)});
   }
-  const std::string error = write_files(files);
-  if (error.empty()) return code;
+  return results;
+}
+
+std::vector<std::string> paths_of(const std::vector<OutputFile>& files) {
+  std::vector<std::string> paths;
+  for (const OutputFile& file : files) paths.push_back(file.path);
+  return paths;
+}
+
+int write_results(Results results, const LoadedSpec& spec, const Options& options) {
+  if (options.folder == "-")
+    return results.files.empty() ? results.code : print(results.files.front().text);
+  if (!options.depfile.empty()) {
+    const std::optional<std::string> rule = depfile_rule(paths_of(results.files), spec.files());
+    if (!rule) {
+      complain("a depfile cannot name a file whose name has a line break");
+      return kExitInputOutput;
+    }
+    results.files.push_back({options.depfile, *rule});
+  }
+  const std::string error = write_files(results.files);
+  if (error.empty()) return results.code;
   complain(error);
   return kExitInputOutput;
+}
+
+int list(const Results& results, const LoadedSpec& spec, const Options& options) {
+  std::string lines;
+  for (const std::string& path : options.list == "inputs" ? spec.files() : paths_of(results.files))
+    lines += path + '\n';
+  const int code = print(lines);
+  return code == kExitDone ? results.code : code;
 }
 
 int check(const Bundle& bundle, const Options& options) {
@@ -205,7 +253,10 @@ int run(const Options& options) {
   if (const int code = report(diagnostics, options); code != kExitDone) return code;
   if (const int code = made.exit_code(diagnostics); code != kExitDone) return code;
   const Bundle& bundle = made.compiled->bundle;
-  return options.check ? check(bundle, options) : write_results(bundle, options);
+  if (options.check) return check(bundle, options);
+  Results results = results_of(bundle, options);
+  if (!options.list.empty()) return list(results, made.compiled->spec, options);
+  return write_results(std::move(results), made.compiled->spec, options);
 }
 
 int parse_and_run(int argc, char** argv) {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "runtime/engine/measure.h"
+#include "compiler/ir/angle.h"
 #include "runtime/report/page/base64.h"
 #include "runtime/report/page/decimate.h"
 #include "runtime/report/words.h"

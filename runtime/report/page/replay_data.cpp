@@ -33,8 +33,9 @@ Json forces_json(const Model& model) {
   for (const Load& load : model.loads) {
     const auto is_zero = [](const Schedule& schedule) { return schedule.is_zero(); };
     if (!load.r_FL_L || std::all_of(load.force_L.begin(), load.force_L.end(), is_zero)) continue;
-    forces.push_back(
-        {{"site", load.name}, {"is_thruster", load.thruster.has_value()}, {"force", force_json(load)}});
+    forces.push_back({{"site", load.name},
+                      {"is_thruster", load.thruster.has_value()},
+                      {"force", force_json(load)}});
   }
   return forces;
 }

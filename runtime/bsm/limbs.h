@@ -1,0 +1,118 @@
+// All limbs of a vehicle, like ones side by side in the lanes of S.
+// Tested by tests/runtime/bsm_test.cpp.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "runtime/bsm/limb.h"
+#include "runtime/bsm/point.h"
+
+namespace twincraft::bsm::TWINCRAFT_KERNEL {
+
+/// @tparam H, S  as of Vehicle
+template <class H, class S>
+class Limbs {
+ public:
+  using Plans = std::span<const Plan* const>;  // one per lane of H, alike
+
+  template <class Of>
+  struct Group {
+    std::array<std::size_t, kLimbs<H, S>> limbs;  // of the plan
+    bool is_full;  // else the second lane repeats the first one's limb
+    Of limb;
+  };
+
+  void build(Plans plans, const Layout& layout) {
+    const std::vector<LimbPlan>& all = plans[0]->limbs;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      if constexpr (kLimbs<H, S> == 1) {
+        add({k}, true, plans, layout);
+      } else {
+        if (is_grouped(k)) continue;
+        std::size_t other = k + 1;
+        while (other < all.size() &&
+               (is_grouped(other) || !are_alike(all.data()[k], all.data()[other])))
+          ++other;
+        const bool alone = other == all.size();
+        add({k, alone ? k : other}, !alone, plans, layout);
+      }
+    }
+  }
+
+  template <class Each>
+  void for_each(const Each& each) {
+    for (auto& group : points_) each(group);
+    for (auto& group : trees_) each(group);
+  }
+  template <class Each>
+  void for_each(const Each& each) const {
+    for (const auto& group : points_) each(group);
+    for (const auto& group : trees_) each(group);
+  }
+  /// The limb in lane l of S.
+  template <class Of>
+  static const LimbPlan& plan_of(const Group<Of>& group, std::size_t l, const Plan& plan) {
+    return plan.limbs.data()[group.limbs[l % kLimbs<H, S>]];
+  }
+
+  /// Where a link is among them.
+  struct Place {
+    bool is_point = false;
+    std::size_t group = 0, link = 0, lane = 0;
+  };
+  /// @param at  takes a link of the plan and its place
+  template <class At>
+  void for_each_place(const Plan& plan, const At& at) const {
+    tell_places(points_, true, plan, at);
+    tell_places(trees_, false, plan, at);
+  }
+  /// @param each  takes the Point or Limb at a place
+  template <class Each>
+  void with(const Place& place, const Each& each) {
+    if (place.is_point)
+      each(points_.data()[place.group].limb);
+    else
+      each(trees_.data()[place.group].limb);
+  }
+
+ private:
+  void add(const std::array<std::size_t, kLimbs<H, S>>& limbs, bool is_full, Plans plans,
+           const Layout& layout) {
+    std::array<const LimbPlan*, kLanes<S>> of_lanes;
+    std::array<const Plan*, kLanes<S>> plan_of_lanes;
+    for (std::size_t l = 0; l < kLanes<S>; ++l) {
+      plan_of_lanes[l] = plans[l / kLimbs<H, S>];
+      of_lanes[l] = &plan_of_lanes[l]->limbs.data()[limbs[l % kLimbs<H, S>]];
+    }
+    if (of_lanes[0]->is_point)
+      points_.push_back({limbs, is_full, Point<H, S>(of_lanes, plan_of_lanes, layout)});
+    else
+      trees_.push_back({limbs, is_full, Limb<H, S>(of_lanes, plan_of_lanes, layout)});
+  }
+
+  bool is_grouped(std::size_t k) const {
+    bool found = false;
+    for_each([&found, k](const auto& group) {
+      for (const std::size_t limb : group.limbs) found = found || limb == k;
+    });
+    return found;
+  }
+
+  template <class Of, class At>
+  static void tell_places(const std::vector<Group<Of>>& groups, bool is_point, const Plan& plan,
+                          const At& at) {
+    for (std::size_t g = 0; g < groups.size(); ++g)
+      for (std::size_t j = 0; j < kLimbs<H, S>; ++j) {
+        if (j > 0 && !groups[g].is_full) continue;
+        const LimbPlan& limb = plan.limbs.data()[groups[g].limbs[j]];
+        for (std::size_t i = 0; i < limb.links.size(); ++i)
+          at(limb.links[i].link, Place{is_point, g, i, j});
+      }
+  }
+
+  std::vector<Group<Point<H, S>>> points_;
+  std::vector<Group<Limb<H, S>>> trees_;
+};
+
+}  // namespace twincraft::bsm::TWINCRAFT_KERNEL

@@ -1,0 +1,27 @@
+// A balanced wheel in the kernel. Tested by tests/runtime/bsm_test.cpp.
+#pragma once
+
+#include "runtime/bsm/parts.h"
+
+namespace twincraft::bsm::TWINCRAFT_KERNEL {
+
+/// On a link.
+template <class H, class S>
+struct RotorOn {
+  Vec<S> axis_L;
+  S spin_inertia{}, motor_torque{};
+  S spin_up{};  // [rad/s^2] what the motor gives a wheel on a mount at rest
+  Places<H, S> speed{};
+
+  void hold(std::size_t l, double torque) {
+    set_lane(motor_torque, l, torque);
+    set_lane(spin_up, l, torque / lane(spin_inertia, l));
+  }
+  void set(std::size_t l, const RotorConstants& from, int place) {
+    set_lane(axis_L, l, from.axis_L);
+    set_lane(spin_inertia, l, from.spin_inertia);
+    speed[l % kLimbs<H, S>] = place;
+  }
+};
+
+}  // namespace twincraft::bsm::TWINCRAFT_KERNEL
