@@ -56,6 +56,10 @@ int tc_abi_version(void) { return TC_ABI_VERSION; }
 
 const char* tc_version(void) { return TWINCRAFT_VERSION; }
 
+const char* tc_engine_name(tc_engine engine) {
+  return name_of(engine == TC_MUJOCO ? EngineKind::kMujoco : EngineKind::kBsm).key.data();
+}
+
 tc_status tc_model_load(const char* path, const tc_load_options* options, tc_model** model) {
   if (path == nullptr) return TC_USAGE;
   return load({path, overrides_of(options)}, model);

@@ -73,6 +73,7 @@ const std::map<std::string, Rooms> kArrows = {
      {"compiler", "compiler/analysis", "compiler/diag", "compiler/ir", "compiler/units",
       "runtime/bsm", "runtime/compare", "runtime/delivery", "runtime/engine", "runtime/report",
       "runtime/simulate", "runtime/api/include"}},
+    {"runtime/api/python", {}},  // the library as any program has it
 };
 
 std::string folder_of(const std::string& file) {

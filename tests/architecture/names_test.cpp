@@ -48,6 +48,8 @@ TEST(Names, OfTargetsStandInTheirTable) {
   EXPECT_THAT(lines_with(R"re("(mjcf|resolved|dot)")re"),
               UnorderedElementsAre("compiler/emit/target.cpp", "compiler/ir/bundle.h",
                                    "compiler/ir/bundle.h",
+                                   // properties of a model in Python
+                                   "runtime/api/python/model.cpp", "runtime/api/python/model.cpp",
                                    // keys of report.json
                                    "runtime/report/json.cpp", "runtime/report/page/page_data.cpp",
                                    "runtime/report/resolution_json.cpp"));

@@ -62,6 +62,8 @@ typedef enum tc_status {
 typedef int (*tc_poll)(void* context);
 
 typedef enum tc_engine { TC_BSM = 0, TC_MUJOCO = 1 } tc_engine;
+/* Its word in specs, flags, files and reports: `bsm`, `mujoco`. */
+TC_API const char* tc_engine_name(tc_engine engine);
 
 /* ---- Model: a compiled spec ---- */
 

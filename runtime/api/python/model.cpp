@@ -17,8 +17,8 @@ using namespace nanobind::literals;
 namespace twincraft::python {
 
 twincraft::Engine engine_named(const std::string& name) {
-  if (name == "bsm") return twincraft::Engine::bsm;
-  if (name == "mujoco") return twincraft::Engine::mujoco;
+  for (const twincraft::Engine engine : {twincraft::Engine::bsm, twincraft::Engine::mujoco})
+    if (name == name_of(engine)) return engine;
   refuse_value("an engine is 'bsm' or 'mujoco', not '" + name + "'");
 }
 

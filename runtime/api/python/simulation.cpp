@@ -62,7 +62,7 @@ class Simulation : public Flying<twincraft::Simulation> {
              twincraft::Engine engine)
       : Flying(model, std::move(flown)), twin_(std::move(twin)), engine_(engine) {}
 
-  const char* engine() const { return engine_ == twincraft::Engine::bsm ? "bsm" : "mujoco"; }
+  const char* engine() const { return name_of(engine_); }
   void set_state(const std::vector<double>& state) {
     check_free();
     flown_.set_state(state);
@@ -135,8 +135,9 @@ class Twin : public Flying<twincraft::Twin> {
 
  private:
   static twincraft::Engine engine_of(const std::string& lead) {
-    if (lead == "bsm" || lead == "each") return twincraft::Engine::bsm;
-    if (lead == "mujoco") return twincraft::Engine::mujoco;
+    if (lead == "each") return twincraft::Engine::bsm;
+    for (const twincraft::Engine engine : {twincraft::Engine::bsm, twincraft::Engine::mujoco})
+      if (lead == name_of(engine)) return engine;
     refuse_value("lead is 'bsm', 'mujoco' or 'each', not '" + lead + "'");
   }
   tc_simulation* handle_of(twincraft::Engine engine) const {
@@ -145,12 +146,13 @@ class Twin : public Flying<twincraft::Twin> {
   std::vector<Controller> pair_of(const nb::dict& given) {
     std::vector<Controller> both;
     std::size_t known = 0;
-    for (const char* name : {"bsm", "mujoco"}) {
+    for (const twincraft::Engine engine : {twincraft::Engine::bsm, twincraft::Engine::mujoco}) {
+      const char* name = name_of(engine);
       const nb::object controller = given.attr("get")(name);
       if (given.contains(name)) ++known;
       both.push_back(controller.is_none()
                          ? Controller([](double) {})
-                         : calling(controller, handle_of(engine_named(name)), Drives::kOneOfTwin));
+                         : calling(controller, handle_of(engine), Drives::kOneOfTwin));
     }
     if (known != given.size())
       refuse_value("a dict of controllers has the keys 'bsm' and 'mujoco' alone");
@@ -225,7 +227,7 @@ void bind_simulation(nb::module_& module) {
       ":meth:`Model.simulate`.");
   simulation.def(
       nb::init<const nb::object&, const std::string&>(), nb::arg("model"),
-      nb::arg("engine") = "bsm",
+      nb::arg("engine") = name_of(twincraft::Engine::bsm),
       nb::sig("def __init__(self, model: twincraft.Model, engine: str = 'bsm') -> None"));
   bind_common(simulation);
   simulation.def_prop_ro("engine", &Simulation::engine, "``bsm`` or ``mujoco``.")
@@ -251,13 +253,14 @@ void bind_twin(nb::module_& module) {
   nb::class_<Twin> twin(module, "Twin",
                         "Both engines of a model in lock step. Made by :meth:`Model.twin`.");
   twin.def(nb::init<const nb::object&, const std::string&>(), nb::arg("model"),
-           nb::arg("lead") = "bsm",
+           nb::arg("lead") = name_of(twincraft::Engine::bsm),
            nb::sig("def __init__(self, model: twincraft.Model, lead: str = 'bsm') -> None"));
   bind_common(twin);
   twin.def_prop_ro("lead", &Twin::lead, "``bsm``, ``mujoco`` or ``each``.")
-      .def_prop_ro("bsm", one(twincraft::Engine::bsm), nb::sig("def bsm(self) -> Simulation"),
+      .def_prop_ro(name_of(twincraft::Engine::bsm), one(twincraft::Engine::bsm),
+                   nb::sig("def bsm(self) -> Simulation"),
                    "The analytic engine, to be observed and driven. The twin moves it.")
-      .def_prop_ro("mujoco", one(twincraft::Engine::mujoco),
+      .def_prop_ro(name_of(twincraft::Engine::mujoco), one(twincraft::Engine::mujoco),
                    nb::sig("def mujoco(self) -> Simulation"),
                    "MuJoCo, to be observed and driven. The twin moves it.")
       .def_prop_ro("disagreement", &Twin::disagreement,

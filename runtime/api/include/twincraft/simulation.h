@@ -98,6 +98,9 @@ class Interrupted : public Error {
 enum class Engine { bsm = TC_BSM, mujoco = TC_MUJOCO };
 enum class Engines { both = TC_BOTH, bsm = TC_BSM_ALONE, mujoco = TC_MUJOCO_ALONE };
 
+/// Its word in specs, flags, files and reports: `bsm`, `mujoco`.
+inline const char* name_of(Engine engine) { return tc_engine_name(static_cast<tc_engine>(engine)); }
+
 namespace detail {
 
 /// @param failure  fills in time and coordinate of a numerical failure
