@@ -16,8 +16,8 @@ What they have to agree on:
   spec: rw_x (1, 0, 0), rw_y (0, 1, 0), rw_z (0, 0, 1). All operations are doubles, from left to
   right, none fused (a C compiler needs -ffp-contract=off).
 - Output: one line per tick, before the inputs of that tick are driven, and a last one at the end:
-  the time, then all states in the order of the model's states, separated by one blank, each as C
-  prints it with %a.
+  the time, then all states in the order of the model's states, separated by one blank, each with
+  all digits as float.hex() prints it; in C that is "%.13a", but 0x0.0p+0 for zero.
 """
 
 from __future__ import annotations
@@ -35,12 +35,6 @@ UNTIL = 30.0  # [s]
 AXES = {"rw_x": (1.0, 0.0, 0.0), "rw_y": (0.0, 1.0, 0.0), "rw_z": (0.0, 0.0, 1.0)}
 
 
-def hexadecimal(x: float) -> str:
-    """As C's %a: float.hex() without the zeros that end its digits."""
-    digits, exponent = x.hex().split("p")
-    return digits.rstrip("0").rstrip(".") + "p" + exponent if "." in digits else x.hex()
-
-
 def torques(q: list[float], omega: list[float]) -> dict[str, float]:
     """Torque of every wheel's motor [N m]."""
     w, *vector = q
@@ -55,7 +49,7 @@ def main(spec: str) -> None:
     sim = tc.load(spec).simulate()
 
     def write() -> None:
-        print(*map(hexadecimal, [sim.time, *sim.state.tolist()]))
+        print(*map(float.hex, [sim.time, *sim.state.tolist()]))
 
     def controller(t: float, y: dict[str, Any]) -> dict[str, float]:
         write()

@@ -28,11 +28,11 @@ def test_texts_are_the_files_of_the_compiler(m, tmp_path):
     assert m.digest == hashlib.sha256(m.resolved.encode()).hexdigest()
 
 
-def test_names_have_units_in_the_order_of_columns(m):
+def test_names_have_units_in_the_order_of_columns(m, tmp_path):
     assert m.inputs == {"rw_x.torque": "N m", "rw_y.torque": "N m", "rw_z.torque": "N m"}
     header = ",".join(["t [s]", *(f"{n} [{u}]" for n, u in m.outputs.items())])
-    columns = m.run(engine="bsm").bsm.to_pandas().columns
-    assert header == ",".join(["t [s]", *columns])
+    m.run(engine="bsm").save(tmp_path)
+    assert (tmp_path / "bsm.csv").read_text().splitlines()[0] == header
     assert list(m.states)[:8] == [
         "r_BN_N.x", "r_BN_N.y", "r_BN_N.z", "q_BN.w", "q_BN.x", "q_BN.y", "q_BN.z",
         "wing_p.1.position",

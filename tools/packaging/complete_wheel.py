@@ -44,7 +44,7 @@ def packages(libraries: Path) -> set[str]:
         files = sorted(SYSTEM.glob(f"{stem}.so*")) or sorted(SYSTEM.glob(f"{stem}*.so*"))
         if not files:
             raise SystemExit(f"{library.name}: no library of the system has that name")
-        owner = run("dpkg-query", "--search", files[-1].resolve())
+        owner = run("dpkg-query", "--search", f"*/{files[-1].resolve().name}")  # /lib is /usr/lib
         found.add(owner.split(":")[0].strip())
     return found
 

@@ -3,8 +3,6 @@
 #include <nanobind/stl/string.h>
 #include <twincraft/simulation.h>
 
-#include <optional>
-
 #include "runtime/api/python/arrays.h"
 #include "runtime/api/python/faults.h"
 #include "runtime/api/python/model.h"
