@@ -241,7 +241,7 @@ void Batch::step_all(std::size_t count) {
   try {
     for (std::size_t i = 1; i < std::min(threads_, groups_.size()); ++i) helpers.emplace_back(work);
   } catch (const std::system_error&) {
-    // No more threads to be had: those there are do it all.
+    // Out of threads: those there are do it all.
   }
   work();
   helpers.clear();

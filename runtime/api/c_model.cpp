@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <cstring>
-#include <span>
 
 #include "compiler/diag/print.h"
 #include "runtime/api/handles.h"

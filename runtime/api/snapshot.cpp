@@ -68,7 +68,8 @@ class Reader {
   template <class T>
   void operator()(T& value) {
     static_assert(std::is_trivially_copyable_v<T>);
-    std::memcpy(&value, take(sizeof value).data(), sizeof value);
+    const std::string_view bytes = take(sizeof value);
+    std::memcpy(&value, bytes.data(), bytes.size());
   }
   void operator()(std::string& text) { text = take(size(1)); }
   void operator()(std::vector<bool>& flags) {

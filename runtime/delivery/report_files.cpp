@@ -2,7 +2,6 @@
 #include "runtime/delivery/report_files.h"
 
 #include <stdexcept>
-#include <utility>
 
 #include "runtime/delivery/file_parts.h"
 #include "runtime/report/json.h"
