@@ -96,6 +96,11 @@ TEST(Twins, MoveTheirEnginesThemselves) {
   EXPECT_EQ(one.time(), 0.0);
 }
 
+TEST(Twins, LastAsLongAsTheirEnginesAreAsked) {
+  const Simulation one = Twin(test::quickstart()).simulation(Engine::mujoco);
+  EXPECT_EQ(one.time(), 0.0);
+}
+
 /// Both stand at the same good step end.
 TEST(Twins, FailTogether) {
   Twin twin(Model::load(test::file("models/quickstart.yaml"), {"simulation.step=5 s"}));

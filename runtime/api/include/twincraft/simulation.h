@@ -364,14 +364,14 @@ class Simulation {
     tc_simulation* handle = nullptr;
     const tc_status status =
         tc_simulation_new(model.handle(), static_cast<tc_engine>(engine), &handle);
-    simulation_.reset(handle);
+    simulation_.reset(handle, tc_simulation_free);
     check(status);
   }
   /// Goes on from the same instant to the same bytes.
   Simulation(const Simulation& other) : model_(other.model_) {
     tc_simulation* handle = nullptr;
     const tc_status status = tc_simulation_copy(other.handle(), &handle);
-    simulation_.reset(handle);
+    simulation_.reset(handle, tc_simulation_free);
     other.check(status);
   }
   Simulation(Simulation&&) = default;
@@ -456,9 +456,9 @@ class Simulation {
 
  private:
   friend class Twin;
-  /// A twin's, which frees it itself.
-  Simulation(const Model& model, tc_simulation* of_a_twin)
-      : model_(model), simulation_(of_a_twin) {}
+  /// A twin's, which stays as long as this does.
+  Simulation(const Model& model, std::shared_ptr<tc_simulation> of_a_twin)
+      : model_(model), simulation_(std::move(of_a_twin)) {}
 
   std::size_t one(const std::string& name) const {
     const Range range = model_.find(TC_INPUTS, name);
@@ -479,7 +479,7 @@ class Simulation {
   }
 
   Model model_;
-  detail::Owned<tc_simulation, tc_simulation_free> simulation_;
+  std::shared_ptr<tc_simulation> simulation_;
 };
 
 /// Both engines in lock step.
@@ -489,13 +489,13 @@ class Twin {
   explicit Twin(const Model& model, Engine lead = Engine::bsm) : model_(model) {
     tc_twin* handle = nullptr;
     const tc_status status = tc_twin_new(model.handle(), static_cast<tc_engine>(lead), &handle);
-    twin_.reset(handle);
+    twin_.reset(handle, tc_twin_free);
     check(status);
   }
   Twin(const Twin& other) : model_(other.model_) {
     tc_twin* handle = nullptr;
     const tc_status status = tc_twin_copy(other.handle(), &handle);
-    twin_.reset(handle);
+    twin_.reset(handle, tc_twin_free);
     other.check(status);
   }
   Twin(Twin&&) = default;
@@ -503,9 +503,10 @@ class Twin {
 
   const Model& model() const { return model_; }
   double time() const { return tc_twin_time(handle()); }
-  /// One of the two, to be asked and driven while this twin is there; the twin moves it.
+  /// One of the two, to be asked and driven; the twin moves it.
   Simulation simulation(Engine engine) const {
-    return {model_, tc_twin_simulation(handle(), static_cast<tc_engine>(engine))};
+    return {model_, std::shared_ptr<tc_simulation>(
+                        twin_, tc_twin_simulation(handle(), static_cast<tc_engine>(engine)))};
   }
 
   void drive(std::size_t input, double value) { drive(input, &value, 1); }
@@ -571,7 +572,7 @@ class Twin {
   }
 
   Model model_;
-  detail::Owned<tc_twin, tc_twin_free> twin_;
+  std::shared_ptr<tc_twin> twin_;
 };
 
 /// Many spacecraft of one model, by the analytic engine.
