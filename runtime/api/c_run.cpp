@@ -2,6 +2,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <future>
 #include <optional>
 #include <thread>
 
@@ -30,45 +33,66 @@ constexpr tc_run_options kDefaults{sizeof(tc_run_options), TC_BOTH, 0, 0, nullpt
 
 int cores() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
 
-void fly_into(tc_run& handle, const tc_run_options& wanted) {
+/// Do `work(stop)`, which ends early when `stop` becomes true, and meanwhile ask the poll: from
+/// this thread, which called the library.
+template <class Work>
+void attend(const tc_run_options& wanted, const Work& work) {
   check_struct(&wanted);
   std::atomic<bool> stop = false;
-  RunRequest request;
-  request.options.bsm = wanted.engines != TC_MUJOCO_ALONE;
-  request.options.mujoco = wanted.engines != TC_BSM_ALONE;
-  request.options.trials = wanted.trials;
-  request.options.stop = &stop;
-  if (wanted.poll != nullptr)
-    request.options.progress = [&](std::string_view, double) {
-      if (wanted.poll(wanted.context) != 0) stop = true;
-    };
-  request.jobs = wanted.jobs > 0 ? wanted.jobs : cores();
-  request.keeps_results = true;
-  handle.run = fly({handle.model->spec(), handle.model->bundle()}, request);
-  if (handle.run->empty()) throw Fault(TC_INTERRUPTED, "interrupted before anything was flown");
-  handle.text = handle.run->text();
-  handle.json = handle.run->json();
-  handle.passes = handle.run->exit_code() == 0;
-  handle.verdict = verdict_name(handle.run->verdict());
+  if (wanted.poll == nullptr) return work(stop);
+  std::future<void> done = std::async(std::launch::async, [&] { work(stop); });
+  while (done.wait_for(std::chrono::milliseconds(20)) != std::future_status::ready)
+    if (!stop && wanted.poll(wanted.context) != 0) stop = true;
+  done.get();
 }
 
-void prove_into(tc_run& handle) {
-  const SpecProof proof = prove_spec(handle.model->bundle());
-  handle.text = proof.text();
-  handle.json = proof.json();
-  handle.passes = proof.holds();
-  handle.verdict = proof.holds() ? "proved" : "refuted";
+[[noreturn]] void end_interrupted() { throw Fault(TC_INTERRUPTED, "interrupted"); }
+
+int jobs_of(const tc_run_options& wanted) { return wanted.jobs > 0 ? wanted.jobs : cores(); }
+
+void fly_into(tc_run& handle, const tc_run_options& wanted) {
+  attend(wanted, [&](const std::atomic<bool>& stop) {
+    RunRequest request;
+    request.options.bsm = wanted.engines != TC_MUJOCO_ALONE;
+    request.options.mujoco = wanted.engines != TC_BSM_ALONE;
+    request.options.trials = wanted.trials;
+    request.options.stop = &stop;
+    request.jobs = jobs_of(wanted);
+    request.keeps_results = true;
+    handle.run = fly({handle.model->spec(), handle.model->bundle()}, request);
+    if (handle.run->empty()) end_interrupted();
+    handle.text = handle.run->text();
+    handle.json = handle.run->json();
+    handle.passes = handle.run->exit_code() == 0;
+    handle.verdict = verdict_name(handle.run->verdict());
+  });
 }
 
-void attribute_into(tc_run& handle) {
-  AttributionRequest request;
-  request.options.trials = 0;
-  request.jobs = cores();
-  const AttributionRun run = attribute({handle.model->spec(), handle.model->bundle()}, request);
-  handle.text = run.text() + run.complaint();
-  handle.json = run.json();
-  handle.passes = run.exit_code() == 0;
-  handle.verdict = run.complete() ? "explained" : "unexplained";
+void prove_into(tc_run& handle, const tc_run_options& wanted) {
+  attend(wanted, [&](const std::atomic<bool>& stop) {
+    const SpecProof proof = prove_spec(handle.model->bundle(), [&stop](double) {
+      if (stop) end_interrupted();
+    });
+    handle.text = proof.text();
+    handle.json = proof.json();
+    handle.passes = proof.holds();
+    handle.verdict = proof.holds() ? "proved" : "refuted";
+  });
+}
+
+void attribute_into(tc_run& handle, const tc_run_options& wanted) {
+  attend(wanted, [&](const std::atomic<bool>& stop) {
+    AttributionRequest request;
+    request.options.trials = 0;
+    request.options.stop = &stop;
+    request.jobs = jobs_of(wanted);
+    const AttributionRun run = attribute({handle.model->spec(), handle.model->bundle()}, request);
+    if (stop) end_interrupted();
+    handle.text = run.text() + run.complaint();
+    handle.json = run.json();
+    handle.passes = run.exit_code() == 0;
+    handle.verdict = run.complete() ? "explained" : "unexplained";
+  });
 }
 
 template <class Body>
@@ -90,16 +114,18 @@ using namespace twincraft::api;
 extern "C" {
 
 tc_status tc_model_run(const tc_model* model, const tc_run_options* options, tc_run** run) {
-  return make(model, run,
-              [options](tc_run& handle) { fly_into(handle, options ? *options : kDefaults); });
+  return make(model, run, [options](tc_run& h) { fly_into(h, options ? *options : kDefaults); });
 }
 
-tc_status tc_model_prove(const tc_model* model, tc_run** proof) {
-  return make(model, proof, prove_into);
+tc_status tc_model_prove(const tc_model* model, const tc_run_options* options, tc_run** proof) {
+  return make(model, proof,
+              [options](tc_run& h) { prove_into(h, options ? *options : kDefaults); });
 }
 
-tc_status tc_model_attribute(const tc_model* model, tc_run** attribution) {
-  return make(model, attribution, attribute_into);
+tc_status tc_model_attribute(const tc_model* model, const tc_run_options* options,
+                             tc_run** attribution) {
+  return make(model, attribution,
+              [options](tc_run& h) { attribute_into(h, options ? *options : kDefaults); });
 }
 
 void tc_run_free(tc_run* run) { delete run; }

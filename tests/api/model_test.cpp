@@ -116,6 +116,24 @@ TEST(Models, AreProved) {
   EXPECT_THAT(proof.json(), HasSubstr("twincraft-proof/1"));
 }
 
+/// The poll comes from the thread that called.
+TEST(Models, EndTheirWorkWhenPolled) {
+  const Model model = Model::load(test::file("models/quickstart.yaml"),
+                                  {"simulation.duration=1 h", "simulation.record=1 s"});
+  RunOptions options;
+  const std::thread::id here = std::this_thread::get_id();
+  options.context = const_cast<std::thread::id*>(&here);
+  options.poll = [](void* caller) {
+    EXPECT_EQ(*static_cast<std::thread::id*>(caller), std::this_thread::get_id());
+    return 1;
+  };
+  try {
+    EXPECT_EQ(model.run(options).verdict(), "interrupted");
+  } catch (const Interrupted&) {  // before anything was flown
+  }
+  EXPECT_THROW((void)model.attribute(options), Interrupted);
+}
+
 TEST(Models, ServeManyThreadsAtOnce) {
   const Model model = test::burn();
   std::vector<std::vector<double>> ends(4);

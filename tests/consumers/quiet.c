@@ -39,7 +39,7 @@ int main(int argc, char** argv) {
     if (fly(model, (tc_engine)engine, 0.01, 5.0) != TC_OK) return 14;
     if (fly(model, (tc_engine)engine, 1e300, 5.0) != TC_NUMERICAL) return 15;
   }
-  if (tc_model_prove(model, &run) != TC_OK || !tc_run_passes(run)) return 16;
+  if (tc_model_prove(model, NULL, &run) != TC_OK || !tc_run_passes(run)) return 16;
   tc_run_free(run);
   if (tc_model_run(model, NULL, &run) != TC_OK) return 17;
   tc_run_free(run);

@@ -276,12 +276,17 @@ typedef struct tc_run_options {
 } tc_run_options;
 
 /* What `scsim SPEC` does: a verdict that is not `agree` is no fault. `options` may be NULL: both
- * engines, no timing. TC_INTERRUPTED: the run says what was computed. */
+ * engines, no timing. A poll may end it: the verdict is `interrupted` and the run says what was
+ * computed, or TC_INTERRUPTED where nothing was. */
 TC_API tc_status tc_model_run(const tc_model* model, const tc_run_options* options, tc_run** run);
-/* What `sccompile SPEC --check` does: are the two targets one machine? */
-TC_API tc_status tc_model_prove(const tc_model* model, tc_run** proof);
-/* What `scsim attribute SPEC` does: why do the engines differ? */
-TC_API tc_status tc_model_attribute(const tc_model* model, tc_run** attribution);
+/* What `sccompile SPEC --check` does: are the two targets one machine? Of the options the poll alone
+ * has a meaning; TC_INTERRUPTED. */
+TC_API tc_status tc_model_prove(const tc_model* model, const tc_run_options* options,
+                                tc_run** proof);
+/* What `scsim attribute SPEC` does: why do the engines differ? Of the options `jobs`, variants at a
+ * time, and the poll have a meaning; TC_INTERRUPTED. */
+TC_API tc_status tc_model_attribute(const tc_model* model, const tc_run_options* options,
+                                    tc_run** attribution);
 TC_API void tc_run_free(tc_run* run);
 TC_API const char* tc_run_error(const tc_run* run);
 /* `agree`, `disagree`, `unresolved`, `not_judged`, `failed`, `interrupted`; of a proof `proved` or

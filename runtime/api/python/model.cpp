@@ -4,10 +4,8 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
-#include <atomic>
-#include <chrono>
-#include <future>
 #include <optional>
+#include <utility>
 
 #include "runtime/api/python/arrays.h"
 #include "runtime/api/python/faults.h"
@@ -50,38 +48,35 @@ CompiledModel loads(const std::string& text, const Texts& set, const std::string
   return CompiledModel(std::move(*model));
 }
 
-/// Signals reach the main thread of Python alone, and the library asks its poll from threads of its
-/// own: so the work has a thread, and this one waits for it or for a signal.
+/// Work that ends when a signal comes, which then is the exception.
 template <class Work>
-twincraft::Run in_the_background(const Work& work) {
-  std::atomic<bool> stop = false;
-  std::future<twincraft::Run> run = std::async(std::launch::async, [&] { return work(stop); });
-  bool is_interrupted = false;
-  {
+twincraft::Run watched(twincraft::RunOptions options, const Work& work) {
+  options.poll = poll_signals;
+  std::optional<twincraft::Run> run;
+  try {
     const nb::gil_scoped_release others_go_on;
-    while (run.wait_for(std::chrono::milliseconds(20)) != std::future_status::ready) {
-      const nb::gil_scoped_acquire gil;
-      if (PyErr_CheckSignals() == 0) continue;
-      is_interrupted = stop = true;
-      break;
-    }
-    run.wait();
+    run.emplace(work(options));
+  } catch (const Interrupted&) {
+    throw_pending();
+    throw;
   }
-  if (is_interrupted) throw_pending();
-  return run.get();
+  throw_pending();
+  return *std::move(run);
 }
 
 twincraft::Run fly(const CompiledModel& model, const std::string& engine, bool timing) {
   twincraft::RunOptions options;
   options.engines = engines_named(engine);
   options.trials = timing ? 5 : 0;
-  return in_the_background([&](std::atomic<bool>& stop) {
-    options.poll = [](void* context) {
-      return static_cast<const std::atomic<bool>*>(context)->load() ? 1 : 0;
-    };
-    options.context = &stop;
-    return model.model.run(options);
-  });
+  return watched(options, [&](const twincraft::RunOptions& how) { return model.model.run(how); });
+}
+
+twincraft::Run prove(const CompiledModel& model) {
+  return watched({}, [&](const twincraft::RunOptions& how) { return model.model.prove(how); });
+}
+
+twincraft::Run attribute(const CompiledModel& model) {
+  return watched({}, [&](const twincraft::RunOptions& how) { return model.model.attribute(how); });
 }
 
 nb::tuple mass_properties(const CompiledModel& model) {
@@ -134,13 +129,8 @@ void bind_model(nb::module_& module) {
            nb::sig("def mass_properties(self) -> tuple[float, numpy.typing.NDArray[numpy.float64], "
                    "numpy.typing.NDArray[numpy.float64]]"))
       .def("run", fly, "engine"_a, "timing"_a)
-      .def("prove",
-           [](const CompiledModel& self) {
-             return in_the_background([&](std::atomic<bool>&) { return self.model.prove(); });
-           })
-      .def("attribute", [](const CompiledModel& self) {
-        return in_the_background([&](std::atomic<bool>&) { return self.model.attribute(); });
-      });
+      .def("prove", prove)
+      .def("attribute", attribute);
 
   nb::class_<twincraft::Run>(module, "FinishedRun", "What a program of ours would have said.")
       .def_prop_ro("verdict", &twincraft::Run::verdict)

@@ -310,20 +310,11 @@ class Model {
   }
 
   /// What scsim does: a verdict that is not `agree` is no exception.
-  Run run(const RunOptions& how = {}) const {
-    const tc_run_options options{sizeof options, static_cast<tc_engines>(how.engines),
-                                 how.trials,     how.jobs,
-                                 how.poll,       how.context};
-    return finished([&](tc_run** run) { return tc_model_run(handle(), &options, run); });
-  }
+  Run run(const RunOptions& how = {}) const { return finished(tc_model_run, how); }
   /// Are the two targets one machine?
-  Run prove() const {
-    return finished([&](tc_run** run) { return tc_model_prove(handle(), run); });
-  }
+  Run prove(const RunOptions& how = {}) const { return finished(tc_model_prove, how); }
   /// Why do the engines differ?
-  Run attribute() const {
-    return finished([&](tc_run** run) { return tc_model_attribute(handle(), run); });
-  }
+  Run attribute(const RunOptions& how = {}) const { return finished(tc_model_attribute, how); }
 
   tc_model* handle() const { return model_.get(); }
 
@@ -344,10 +335,13 @@ class Model {
     detail::check(status, tc_model_error(handle));
     return model;
   }
-  template <class Make>
-  static Run finished(const Make& make) {
+  using Make = tc_status(const tc_model*, const tc_run_options*, tc_run**);
+  Run finished(Make* make, const RunOptions& how) const {
+    const tc_run_options options{sizeof options, static_cast<tc_engines>(how.engines),
+                                 how.trials,     how.jobs,
+                                 how.poll,       how.context};
     tc_run* handle = nullptr;
-    const tc_status status = make(&handle);
+    const tc_status status = make(this->handle(), &options, &handle);
     Run run(handle);
     detail::check(status, tc_run_error(handle));
     return run;
