@@ -279,8 +279,8 @@ typedef struct tc_run_options {
  * engines, no timing. A poll may end it: the verdict is `interrupted` and the run says what was
  * computed, or TC_INTERRUPTED where nothing was. */
 TC_API tc_status tc_model_run(const tc_model* model, const tc_run_options* options, tc_run** run);
-/* What `sccompile SPEC --check` does: are the two targets one machine? Of the options the poll alone
- * has a meaning; TC_INTERRUPTED. */
+/* What `sccompile SPEC --check` does: are the two targets one machine? Of the options the poll
+ * alone has a meaning; TC_INTERRUPTED. */
 TC_API tc_status tc_model_prove(const tc_model* model, const tc_run_options* options,
                                 tc_run** proof);
 /* What `scsim attribute SPEC` does: why do the engines differ? Of the options `jobs`, variants at a
