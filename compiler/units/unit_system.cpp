@@ -75,14 +75,16 @@ bool is_common(const std::string& name) {
 }
 
 /// `kgm` as `kg m`: a product whose blanks were left out. Empty when it is none.
-std::string taken_apart(const std::string& name) {
+/// @param units  at most so many, because there are exponentially many ways to read `mmmm...`
+std::string taken_apart(const std::string& name, int units = 4) {
   if (name.ends_with('s') && is_common(name.substr(0, name.size() - 1))) return {};  // a plural
   for (std::size_t length = 1; length < name.size(); ++length) {
     const std::string first = name.substr(0, length);
     const std::string rest = name.substr(length);
     if (!is_common(first)) continue;
     if (is_common(rest)) return fmt::format("{} {}", first, rest);
-    if (const std::string parts = taken_apart(rest); !parts.empty())
+    if (units == 2) continue;
+    if (const std::string parts = taken_apart(rest, units - 1); !parts.empty())
       return fmt::format("{} {}", first, parts);
   }
   return {};

@@ -239,6 +239,13 @@ TEST(Units, WhoseBlanksAreMissingAreTakenApart) {
   EXPECT_EQ(hint("kmh"), "did you mean `km/h`?");
 }
 
+/// As many ways to read it as there are ways to cut it: a search of them all would not end.
+TEST(Units, OfManyLettersAreRefusedAtOnce) {
+  const std::string unit = std::string(40, 'm') + "ecombine";
+  EXPECT_THAT(parse_quantity("1" + unit, "m").error, HasSubstr("unknown unit"));
+  EXPECT_EQ(parse_quantity("1 kgmsrad", "m").hint, "did you mean `kg m s rad`?");
+}
+
 TEST(Quantity, KnowsWhichUnitItWasWrittenIn) {
   EXPECT_EQ(parse_quantity("5", "m").unit, "");
   EXPECT_EQ(parse_quantity("5 mm", "m").unit, "mm");
