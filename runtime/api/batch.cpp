@@ -81,11 +81,9 @@ class Batch::Alone final : public Group {
 
   double time() const override { return simulation_->time(); }
   void step(std::size_t count) override {
-    if (!failure_.empty()) return;
-    try {
-      simulation_->step(count);
-    } catch (const NumericalFailure& failure) {
-      failure_ = failure.what();
+    for (std::size_t i = 0; i < count; ++i) {
+      if (failure_.empty()) try_step();
+      if (!failure_.empty()) simulation_->pass();  // it may be given another state later
     }
   }
   void observe(std::size_t, Engine&, Observation& seen) override { seen = simulation_->observe(); }
@@ -103,6 +101,14 @@ class Batch::Alone final : public Group {
   const std::string& failure(std::size_t) const override { return failure_; }
 
  private:
+  void try_step() {
+    try {
+      simulation_->step(1);
+    } catch (const NumericalFailure& failure) {
+      failure_ = failure.what();
+    }
+  }
+
   std::unique_ptr<Simulation> simulation_;
   std::string failure_;
 };

@@ -87,6 +87,11 @@ void Simulation::step(std::size_t count, const Poll& poll) {
   }
 }
 
+void Simulation::pass() {
+  has_seen_ = false;
+  flight_->pass_on_grid();
+}
+
 void Simulation::advance_to(double time, const Poll& poll) {
   check_target(time, flight_->time(), flight_->tolerance());
   for (std::size_t i = 0; flight_->time() < time - flight_->tolerance(); ++i) {

@@ -64,6 +64,8 @@ class Simulation {
   /// To the `count`-th next point of the grid. @throws NumericalFailure; it stands at the last good
   /// step end, then as in the others
   void step(std::size_t count, const Poll& poll = {});
+  /// To the next point of the grid without a motion, see Flight.
+  void pass();
   /// To exactly `time`. @throws Fault: in the past, or not finite
   void advance_to(double time, const Poll& poll = {});
 

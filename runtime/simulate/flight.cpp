@@ -160,6 +160,22 @@ void Flight::advance_on_grid() {
   while (!done() && landings_.position().index == index) advance();
 }
 
+void Flight::pass_on_grid() {
+  const std::int64_t index = landings_.position().index;
+  while (!done() && landings_.position().index == index) {
+    Landings::Position after = landings_.position();
+    const Landing landing = landings_.follow(after);
+    if (empty_at_ < landing.time) {
+      time_ = std::max(time_, empty_at_);
+      hold(feed_.stop_empty(empty_at_));
+      continue;
+    }
+    time_ = landing.time;
+    landings_.go_on_from(after);
+    if (landing.is_event) hold(feed_.begin(landing.time));
+  }
+}
+
 void Flight::advance_to(double time) {
   while (!done() && next_landing() < time - tolerance()) advance();
   if (done() || time <= time_ + tolerance()) return;

@@ -63,6 +63,9 @@ class Flight {
 
   /// To the next point of the grid k * step, event by event. @pre not done()
   void advance_on_grid();
+  /// The same of a vehicle whose motion has failed: time, schedules and tanks go on, its state
+  /// stays.
+  void pass_on_grid();
   std::int64_t next_grid_point() const { return landings_.position().index; }
   double next_landing() const { return landings_.peek().time; }  // [s] @pre not done()
 

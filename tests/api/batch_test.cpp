@@ -138,6 +138,25 @@ TEST(Batch, LetsAMemberEndAlone) {
   EXPECT_EQ(batch.status().at(4), TC_OK);
 }
 
+/// Members with tanks are flown one by one; the first one's failure is nobody else's, and it flies
+/// again from the batch's time.
+TEST(Batch, GoesOnWithoutItsFirstMember) {
+  const Model model = Model::load(test::file("tests/components/vehicles/jet.yaml"));
+  Batch batch(model, 2);
+  const Rows start = batch.states();
+  Rows broken = start;
+  broken.at(model.find(TC_STATES, "omega_BN_B.x").first) = 1e200;
+  batch.set_states(broken.data(), broken.size());
+  batch.step(10);
+  EXPECT_EQ(batch.status(), (std::vector<std::int32_t>{TC_NUMERICAL, TC_OK}));
+  EXPECT_EQ(batch.time(), 10.0 * model.step());
+  batch.set_states(start.data(), start.size());
+  batch.step(10);
+  EXPECT_EQ(batch.status(), (std::vector<std::int32_t>{TC_OK, TC_OK}));
+  const std::size_t width = model.count(TC_STATES);
+  EXPECT_EQ(row(batch.states(), 0, width), row(batch.states(), 1, width));
+}
+
 TEST(Batch, RefusesRowsThatDoNotFitAndStaysAsItWas) {
   const Model model = test::quickstart();
   Batch batch(model, 4);
