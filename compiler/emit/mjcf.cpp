@@ -2,9 +2,9 @@
 //
 // MuJoCo's defaults are stated where they differ between versions or from ours (degrees, gravity of
 // 9.81). Inertia goes out as principal moments with their axes: `fullinertia` would lose half the
-// digits in 2.2. What MuJoCo refuses is changed to the nearest it accepts: masses and moments below
-// 1e-15 are raised, and where rounding left A + B < C, C is lowered to the sum. Our own engine puts
-// both back.
+// digits in 2.2, and later versions ignore small turns and offsets (told_inertia). What MuJoCo
+// refuses is changed to the nearest it accepts: masses and moments below 1e-15 are raised, and
+// where rounding left A + B < C, C is lowered to the sum. Our own engine puts both back.
 // Tested by tests/runtime/mjcf_test.cpp.
 #include "compiler/emit/mjcf.h"
 
@@ -221,7 +221,7 @@ void MjcfPrinter::joint(const TreeJoint& joint) {
 }
 
 void MjcfPrinter::inertial(const MassProperties& properties) {
-  const PrincipalInertia principal = principal_inertia(properties.I_PntC_L);
+  const PrincipalInertia principal = told_inertia(properties);
   leaf("inertial", {{"pos", text(properties.r_CL_L)},
                     {"mass", text(std::max(properties.mass, kLeastMass))},
                     {"quat", text(principal.axes)},

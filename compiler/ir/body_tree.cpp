@@ -3,6 +3,14 @@
 #include "compiler/ir/body_tree.h"
 
 namespace twincraft {
+namespace {
+
+// MuJoCo's 1e-6 and a decade, so that how it normalises a quaternion plays no part.
+constexpr double kLost = 1.0e-5;  // components of a quaternion, and [m]
+
+bool is_small(const Vector3d& v) { return v.cwiseAbs().maxCoeff() < kLost; }
+
+}  // namespace
 
 std::vector<Seat> seats_of(const BodyTree& tree) {
   std::vector<Seat> seats;
@@ -27,6 +35,18 @@ std::vector<int> depths_of(const BodyTree& tree) {
     depths.push_back(is_hub ? 0 : depths.at(static_cast<std::size_t>(body.parent)) + 1);
   }
   return depths;
+}
+
+PrincipalInertia told_inertia(const MassProperties& inertial) {
+  const PrincipalInertia principal = principal_inertia(inertial.I_PntC_L);
+  const Vector3d turn = principal.axes.vec();
+  const bool loses_turn = is_small(turn) && !turn.isZero(0.0);
+  const bool loses_place =
+      is_small(turn) && is_small(inertial.r_CL_L) && !inertial.r_CL_L.isZero(0.0);
+  if (!loses_turn && !loses_place) return principal;
+  const Vector3d& moments = principal.moments;
+  return {{moments.y(), moments.z(), moments.x()},
+          (principal.axes * Quaterniond(0.5, 0.5, 0.5, 0.5)).normalized()};
 }
 
 MassElement seated(const MassElement& element, const Seat& seat) {

@@ -82,6 +82,13 @@ std::vector<Seat> seats_of(const BodyTree& tree);
 /// How many bodies deep each one hangs below the hub.
 std::vector<int> depths_of(const BodyTree& tree);
 
+/// Principal inertia of a body as MuJoCo is told it. MuJoCo 3 and later take an inertial for turned
+/// like its body where all components of `quat` are within 1e-6 of the identity's, and for placed
+/// like it, too, where those of `pos` are within 1e-6 m of zero: small turns and offsets are lost.
+/// Where that would drop anything, the axes are named in another order, y z x. That is the same
+/// tensor to the bit and a turn by 120 deg, which nobody takes for none.
+PrincipalInertia told_inertia(const MassProperties& inertial);
+
 /// An element of a body, in the axes of the link that carries it.
 MassElement seated(const MassElement& element, const Seat& seat);
 

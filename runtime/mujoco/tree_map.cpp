@@ -55,7 +55,7 @@ void restore_exact_masses(const BodyTree& tree, mjModel& loaded) {
     const int id = find(loaded, mjOBJ_BODY, body.name);
     Eigen::Map<Vector3d> inertia(loaded.body_inertia + 3 * id);
     // An eigenvalue of a rod can come out a rounding below zero.
-    const Vector3d moments = principal_inertia(body.inertial.I_PntC_L).moments.cwiseMax(0.0);
+    const Vector3d moments = told_inertia(body.inertial).moments.cwiseMax(0.0);
     if (loaded.body_mass[id] == body.inertial.mass && inertia == moments) continue;
     loaded.body_mass[id] = body.inertial.mass;
     inertia = moments;

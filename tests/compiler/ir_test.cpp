@@ -5,6 +5,7 @@
 #include <charconv>
 #include <random>
 
+#include "compiler/ir/body_tree.h"
 #include "compiler/ir/mass.h"
 #include "compiler/ir/number.h"
 #include "compiler/ir/propellant.h"
@@ -63,6 +64,40 @@ TEST(PrincipalInertia, RebuildsRandomTensorsToRounding) {
     const Matrix3d R = p.axes.toRotationMatrix();
     EXPECT_NEAR(R.determinant(), 1.0, 1e-14);
     EXPECT_LT((R * p.moments.asDiagonal() * R.transpose() - I).norm(), 1e-14 * I.norm());
+  }
+}
+
+Matrix3d tensor_of(const PrincipalInertia& p) {
+  const Matrix3d axes = p.axes.toRotationMatrix();
+  return axes * p.moments.asDiagonal() * axes.transpose();
+}
+
+TEST(ToldInertia, KeepsAxesThatAreExactlyTheBodysOrClearlyNot) {
+  const Matrix3d I = Vector3d(600.0, 900.0, 800.0).asDiagonal();
+  for (const Vector3d& place : {Vector3d(0.0, 0.0, 0.0), Vector3d(0.1, 1e-7, 0.0)}) {
+    const PrincipalInertia told = told_inertia({1.0, place, I});
+    EXPECT_EQ(told.moments, Vector3d(600.0, 900.0, 800.0));
+    EXPECT_EQ(told.axes.coeffs(), Quaterniond::Identity().coeffs());
+  }
+  const Matrix3d turn = Eigen::AngleAxisd(0.1, Vector3d::UnitX()).toRotationMatrix();
+  const MassProperties turned{1.0, Vector3d(1e-7, 0.0, 0.0), turn * I * turn.transpose()};
+  EXPECT_EQ(told_inertia(turned).axes.coeffs(), principal_inertia(turned.I_PntC_L).axes.coeffs());
+}
+
+TEST(ToldInertia, NamesAxesAnewThatMujocoWouldTakeForTheBodys) {
+  const Matrix3d I = Vector3d(600.0, 900.0, 800.0).asDiagonal();
+  const PrincipalInertia moved = told_inertia({1.0, Vector3d(0.0, -9e-7, 0.0), I});
+  EXPECT_EQ(moved.moments, Vector3d(900.0, 800.0, 600.0));
+  EXPECT_EQ(moved.axes.coeffs(), Quaterniond(0.5, 0.5, 0.5, 0.5).coeffs());
+  EXPECT_EQ(tensor_of(moved), I);
+
+  Matrix3d near;  // [kg m^2] its principal axes are 7e-7 rad off
+  near << 350.0, 1e-5, 0.0, 1e-5, 380.0, -2e-5, 0.0, -2e-5, 410.0;
+  ASSERT_LT(principal_inertia(near).axes.vec().norm(), 1e-6);
+  for (const Vector3d& place : {Vector3d(0.0, 0.0, 0.0), Vector3d(0.1, 0.0, 0.0)}) {
+    const PrincipalInertia turned = told_inertia({1.0, place, near});
+    EXPECT_GT(turned.axes.vec().cwiseAbs().minCoeff(), 0.4);
+    EXPECT_LT((tensor_of(turned) - near).norm(), 1e-12);
   }
 }
 

@@ -38,7 +38,7 @@ TEST(Mjcf, IsReadBackBitForBit) {
       SCOPED_TRACE(model.name + " " + body.name);
       const int id = mj_name2id(m.get(), mjOBJ_BODY, body.name.c_str());
       ASSERT_GT(id, 0);
-      const PrincipalInertia principal = principal_inertia(body.inertial.I_PntC_L);
+      const PrincipalInertia principal = told_inertia(body.inertial);
       const Vector3d floored = principal.moments.cwiseMax(1.0e-15);
       EXPECT_EQ(m->body_mass[id], body.inertial.mass);
       EXPECT_EQ(numbers(m->body_inertia + 3 * id, 3), numbers(floored));
@@ -200,6 +200,21 @@ TEST(Mjcf, LoadsAFlatPlateWhoseMomentsRoundTheWrongWay) {
     restore_exact_masses(model.tree, *m);
     EXPECT_EQ(numbers(m->body_inertia + 3, 3), numbers(moments));
     EXPECT_EQ(m->dof_simplenum[0], 0);
+  }
+}
+
+// Later versions drop an offset below 1e-6 m unless the inertial is turned as well.
+TEST(Mjcf, SaysASmallOffsetSoThatItIsKept) {
+  Model model = test::offset_hub();
+  MassProperties& hub = model.tree.bodies[0].inertial;
+  hub.r_CL_L = Vector3d(0.0, 3.0e-7, 0.0);
+  hub.I_PntC_L = Vector3d(4.0, 5.0, 6.0).asDiagonal();
+  const MujocoModel m = load_mjcf(emit_mjcf(model));
+  for (int pass = 0; pass < 2; ++pass) {
+    EXPECT_EQ(numbers(m->body_ipos + 3, 3), numbers(hub.r_CL_L));
+    EXPECT_EQ(numbers(m->body_iquat + 4, 4), std::vector({0.5, 0.5, 0.5, 0.5}));
+    EXPECT_EQ(numbers(m->body_inertia + 3, 3), std::vector({5.0, 6.0, 4.0}));
+    restore_exact_masses(model.tree, *m);
   }
 }
 
