@@ -12,6 +12,7 @@
 #include <cmath>
 #include <utility>
 
+#include "runtime/compare/acceleration_blocks.h"
 #include "runtime/compare/held_comparison.h"
 #include "runtime/compare/random_state.h"
 #include "runtime/compare/rounding.h"
@@ -22,14 +23,6 @@ namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-/// A block of the velocity coordinates (v_B, omega, joint rates, wheel rates).
-struct AccelerationBlock {
-  std::string what;
-  std::vector<std::string> names;
-  std::vector<int> entries;  // of the acceleration vector
-  double floor = 0.0;        // smallest magnitude worth comparing with
-};
 
 /// One engine at one physical state.
 struct Answer {
@@ -77,9 +70,6 @@ void keep_worst(ProofLine& line, double difference, double bound, const std::str
   line.where = where;
 }
 
-/// Radius of gyration about B [m] from the hub blocks of a mass matrix.
-double gyration(const MatrixXd& M) { return std::sqrt(M.block<3, 3>(3, 3).trace() / M(0, 0)); }
-
 /// Mass, centre of mass and inertia are blocks of the mass matrix: m, -m [NB] tilde(c), I about B.
 void compare_mass_properties(const Answer& a, const Answer& b, ProofReport& report) {
   const MatrixXd difference = a.mass_matrix - b.mass_matrix;
@@ -93,7 +83,7 @@ void compare_mass_properties(const Answer& a, const Answer& b, ProofReport& repo
   };
   add("mass", 0, 0, 1, mass);
   if (difference.rows() == 3) return;  // a point mass
-  const double arm = gyration(a.mass_matrix);
+  const double arm = gyration_radius(a.mass_matrix);
   add("centre of mass", 0, 3, 3, mass * arm);
   add("inertia", 3, 3, 3, mass * arm * arm);
 }
@@ -124,36 +114,6 @@ bool same_coordinates(const Model& model, Engine& a, Engine& b, ProofReport& rep
   report.lines.push_back(
       {"coordinate count", same ? 0.0 : 1.0, fmt::format("{} and {}", freedom(a), freedom(b))});
   return same;
-}
-
-std::vector<AccelerationBlock> blocks_of(const Model& model, const MatrixXd& M) {
-  if (model.simulation.translation) {
-    // Nothing turns, so nothing cancels, and any acceleration is worth comparing with.
-    constexpr double kAny = std::numeric_limits<double>::min();
-    return {{"acceleration", {"x", "y", "z"}, {0, 1, 2}, kAny}};
-  }
-  const double arm = gyration(M);
-  // Rates drawn are about 0.1 rad/s, so this is what turning alone makes of any coordinate.
-  constexpr double kCentrifugal = 0.01;  // [rad/s^2]
-  AccelerationBlock linear{
-      "hub linear acceleration", {"x", "y", "z"}, {0, 1, 2}, kCentrifugal * arm};
-  AccelerationBlock angular{"hub angular acceleration", {"x", "y", "z"}, {3, 4, 5}, kCentrifugal};
-  AccelerationBlock hinges{"hinge accelerations", {}, {}, kCentrifugal};
-  AccelerationBlock slides{"slide accelerations", {}, {}, kCentrifugal * arm};
-  AccelerationBlock wheels{"wheel accelerations", {}, {}, kCentrifugal};
-  const auto& links = model.assembly.links;
-  for (std::size_t i = 1; i < links.size(); ++i) {
-    AccelerationBlock& block = links[i].joint.kind == JointKind::kSlide ? slides : hinges;
-    block.names.push_back(links[i].name);
-    block.entries.push_back(6 + static_cast<int>(i) - 1);
-  }
-  for (const Rotor& rotor : model.assembly.rotors) {
-    wheels.entries.push_back(6 + static_cast<int>(links.size() - 1 + wheels.names.size()));
-    wheels.names.push_back(rotor.name);
-  }
-  std::vector<AccelerationBlock> blocks{linear, angular, hinges, slides, wheels};
-  std::erase_if(blocks, [](const AccelerationBlock& block) { return block.entries.empty(); });
-  return blocks;
 }
 
 void compare_mass_matrices(const Answer& a, const Answer& b, std::size_t state, ProofLine& line) {
@@ -263,7 +223,7 @@ ProofReport prove(const Model& model, Engine& a, Engine& b, const ProofProgress&
   compare_mass_properties(start_a, ask(b, start, feed), report);
   StateComparison comparison(a, b, feed, std::move(states), progress);
   report.lines.push_back(comparison.mass_matrix());
-  for (const AccelerationBlock& block : blocks_of(model, start_a.mass_matrix))
+  for (const AccelerationBlock& block : acceleration_blocks(model, start_a.mass_matrix))
     report.lines.push_back(comparison.compare(block));
   return report;
 }
