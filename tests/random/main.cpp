@@ -22,6 +22,7 @@ struct Options {
   std::uint64_t seed = 1;
   int jobs = 2;
   std::string folder = ".";
+  std::string written;  // a folder for specs; empty: they are examined
   std::vector<std::string> replayed;
 };
 
@@ -101,6 +102,12 @@ int replay(const std::vector<std::string>& files) {
   return failed;
 }
 
+void write(const Options& options) {
+  for (std::uint64_t seed = options.seed; seed < options.seed + options.count; ++seed)
+    std::ofstream(fmt::format("{}/vehicle_{}.yaml", options.written, seed))
+        << emit_resolved(random_spec(seed));
+}
+
 int run(int argc, char** argv) {
   Options options;
   CLI::App app{"Holds random vehicles against all that must hold.", "random_vehicles"};
@@ -111,11 +118,17 @@ int run(int argc, char** argv) {
       ->check(CLI::ExistingDirectory);
   app.add_option("--replay", options.replayed, "examine these specs instead")
       ->check(CLI::ExistingFile);
+  app.add_option("--write", options.written, "write the specs into this folder instead")
+      ->check(CLI::ExistingDirectory);
   bool print = false;
   app.add_flag("--print", print, "print the first spec instead");
   CLI11_PARSE(app, argc, argv);
   if (print) fmt::print("{}", emit_resolved(random_spec(options.seed)));
   if (print) return 0;
+  if (!options.written.empty()) {
+    write(options);
+    return 0;
+  }
   if (!options.replayed.empty()) return replay(options.replayed) == 0 ? 0 : 1;
   return Hunt(options).run() == 0 ? 0 : 1;
 }
