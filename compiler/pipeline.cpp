@@ -2,16 +2,15 @@
 #include "compiler/pipeline.h"
 
 #include <fmt/format.h>
-#include <openssl/evp.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
 #include "compiler/analysis/verify.h"
 #include "compiler/emit/json.h"
 #include "compiler/emit/target.h"
+#include "compiler/ir/digest.h"
 #include "compiler/schema/manual.h"
 #include "compiler/schema/partial.h"
 #include "compiler/spec/spec.h"
@@ -130,13 +129,25 @@ std::vector<Setting> settings_of(const std::vector<Override>& changes, const Jso
   return settings;
 }
 
+/// What a target says of the model, at the components that it is about.
+void tell(const std::vector<Remark>& remarks, const Spec& spec, Diagnostics& diagnostics) {
+  for (const Remark& remark : remarks) {
+    const Span span = name_span(spec, remark.component).value_or(spec.span_of("name"));
+    if (remark.is_refusal)
+      diagnostics.warning(Code::kHalfRefused, span, remark.text);
+    else
+      diagnostics.note(Code::kHalfRewritten, span, remark.text);
+  }
+}
+
 /// @pre every name in `wanted` is a target's
 Bundle emit(Model model, const Spec& spec, const Origin& origin,
-            const std::vector<Override>& changes, const Wanted& wanted) {
+            const std::vector<Override>& changes, const Wanted& wanted, Diagnostics& diagnostics) {
   const Json resolved = spec_table().write(spec);
   Bundle bundle;
   for (const std::string_view name : wanted) {
     const Target& target = *find_target(name);
+    tell(target.remarks(model), spec, diagnostics);
     if (!target.refusal(model).empty()) continue;
     std::string text = target.print(model, resolved);
     std::string digest = sha256(text);
@@ -187,7 +198,7 @@ std::optional<Bundle> bundle_of(const Spec& spec, const Origin& origin,
   std::optional<Model> model = lower_finite(spec, diagnostics);
   if (!model) return std::nullopt;
   require_one_machine(*model);
-  return emit(std::move(*model), spec, origin, changes, wanted);
+  return emit(std::move(*model), spec, origin, changes, wanted, diagnostics);
 }
 
 constexpr std::size_t kEnoughFaults = 50;
@@ -358,16 +369,5 @@ std::string json_schema() {
 }
 
 std::string reference_markdown() { return reference_text(spec_table().info()); }
-
-std::string sha256(const std::string& text) {
-  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
-  unsigned int length = 0;
-  if (EVP_Digest(text.data(), text.size(), digest.data(), &length, EVP_sha256(), nullptr) != 1) {
-    throw std::runtime_error("OpenSSL does not compute a SHA-256 digest");
-  }
-  std::string hex;
-  for (unsigned int i = 0; i < length; ++i) hex += fmt::format("{:02x}", digest.at(i));
-  return hex;
-}
 
 }  // namespace twincraft

@@ -90,7 +90,4 @@ std::string json_schema();
 /// The reference text generated from the field tables (Markdown).
 std::string reference_markdown();
 
-/// SHA-256 of `text`, 64 lower-case hexadecimal digits.
-std::string sha256(const std::string& text);
-
 }  // namespace twincraft

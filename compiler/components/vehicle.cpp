@@ -23,6 +23,15 @@ std::optional<Span> depth_span(const Vehicle& vehicle, const std::string& name) 
   return found;
 }
 
+std::optional<Span> name_span(const Vehicle& vehicle, const std::string& name) {
+  std::optional<Span> found;
+  for_each_section(vehicle, [&](const auto& members, const SectionName&) {
+    for (const auto& each : members)
+      if (name_of(each) == name) found = written(each).span_of("name");
+  });
+  return found;
+}
+
 Size size_of(const Vehicle& vehicle, int most) {
   Size size;
   const auto add = [&size, most](const Coordinates& more) {

@@ -38,6 +38,9 @@ void for_each_section(const Vehicle& vehicle, const Visit& visit) {
 /// What makes the component `name` as deep in the tree as it is; nothing when none is called so.
 std::optional<Span> depth_span(const Vehicle& vehicle, const std::string& name);
 
+/// Where the component `name` is called so; nothing when none is.
+std::optional<Span> name_span(const Vehicle& vehicle, const std::string& name);
+
 /// Joints and wheels, summed up to the first component with which they are more than allowed.
 struct Size {
   int coordinates = 0;

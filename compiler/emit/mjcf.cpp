@@ -3,8 +3,7 @@
 // MuJoCo's defaults are stated where they differ between versions or from ours (degrees, gravity of
 // 9.81). Inertia goes out as principal moments with their axes: `fullinertia` would lose half the
 // digits in 2.2, and later versions ignore small turns and offsets (told_inertia). What MuJoCo
-// refuses is changed to the nearest it accepts: masses and moments below 1e-15 are raised, and
-// where rounding left A + B < C, C is lowered to the sum. Our own engine puts both back.
+// refuses is changed to the nearest it accepts (mujoco_inertial); our own engine puts that back.
 // Tested by tests/runtime/mjcf_test.cpp.
 #include "compiler/emit/mjcf.h"
 
@@ -15,13 +14,12 @@
 #include <map>
 #include <vector>
 
+#include "compiler/emit/mujoco_inertial.h"
 #include "compiler/emit/pictures.h"
 #include "compiler/ir/number.h"
 
 namespace twincraft {
 namespace {
-
-constexpr double kLeastMass = 1.0e-15;  // [kg] and [kg m^2]; MuJoCo's mjMINVAL
 
 std::string text(double value) { return shortest(value); }
 std::string text(const std::vector<double>& values) {
@@ -31,16 +29,6 @@ std::string text(const std::vector<double>& values) {
 }
 std::string text(const Vector3d& v) { return text(std::vector{v.x(), v.y(), v.z()}); }
 std::string text(const Quaterniond& q) { return text(std::vector{q.w(), q.x(), q.y(), q.z()}); }
-
-// The moments MuJoCo accepts that are nearest to the given ones.
-Vector3d acceptable(const Vector3d& moments) {
-  Vector3d accepted = moments.cwiseMax(kLeastMass);
-  Eigen::Index largest = 0;
-  accepted.maxCoeff(&largest);
-  const double others = accepted[(largest + 1) % 3] + accepted[(largest + 2) % 3];
-  accepted[largest] = std::min(accepted[largest], others);
-  return accepted;
-}
 
 // The link whose axes are this body's; -1 for a body that is fixed in its parent's, and for wheels.
 int own_link(const TreeBody& body) {
@@ -221,11 +209,11 @@ void MjcfPrinter::joint(const TreeJoint& joint) {
 }
 
 void MjcfPrinter::inertial(const MassProperties& properties) {
-  const PrincipalInertia principal = told_inertia(properties);
-  leaf("inertial", {{"pos", text(properties.r_CL_L)},
-                    {"mass", text(std::max(properties.mass, kLeastMass))},
-                    {"quat", text(principal.axes)},
-                    {"diaginertia", text(acceptable(principal.moments))}});
+  const MujocoInertial accepted = mujoco_inertial(properties);
+  leaf("inertial", {{"pos", text(accepted.r_CL_L)},
+                    {"mass", text(accepted.mass)},
+                    {"quat", text(accepted.principal.axes)},
+                    {"diaginertia", text(accepted.principal.moments)}});
 }
 
 void MjcfPrinter::picture(const TreeBody& body) {

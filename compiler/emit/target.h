@@ -6,7 +6,9 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "compiler/emit/remark.h"
 #include "compiler/ir/model.h"
 
 namespace twincraft {
@@ -19,6 +21,8 @@ struct Target {
   std::string (*print)(const Model& model, const nlohmann::ordered_json& resolved);
   /// Why this model cannot be written so; empty: it can.
   std::string (*refusal)(const Model& model);
+  /// What is to be said at its components.
+  std::vector<Remark> (*remarks)(const Model& model);
 };
 
 std::span<const Target> targets();

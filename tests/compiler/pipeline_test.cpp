@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "compiler/emit/target.h"
+#include "compiler/ir/digest.h"
 #include "tests/compiler/compile_text.h"
 
 namespace twincraft {

@@ -1,0 +1,453 @@
+// What both halves of a script share: its head, what acts, the flight and the command line.
+// Tested by tests/compiler/basilisk_test.cpp, and flown by tests/basilisk.
+#include "compiler/emit/basilisk/basilisk.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string_view>
+#include <utility>
+
+#include "compiler/emit/basilisk/half.h"
+#include "compiler/emit/basilisk/python_text.h"
+#include "compiler/emit/resolved.h"
+#include "compiler/ir/digest.h"
+#include "compiler/ir/inputs.h"
+#include "compiler/ir/number.h"
+#include "compiler/ir/signals.h"
+#include "compiler/ir/vector_json.h"
+
+namespace twincraft {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::string_view kImports = R"py(
+# flake8: noqa: E501
+import argparse
+import pathlib
+import sys
+import time
+
+try:
+    import Basilisk
+    import numpy as np
+    from Basilisk.architecture import messaging, sysModel
+)py";
+
+constexpr std::string_view kVersion = R"py(    if [int(number) for number in Basilisk.__version__.split(".")[:2]] < [2, 12]:
+        raise ImportError(f"this is Basilisk {Basilisk.__version__}")
+except ImportError as error:
+    sys.exit(f"Basilisk 2.12 or later and numpy are needed (pip install bsk): {error}")
+
+)py";
+
+constexpr std::string_view kVehicle = R"py(
+
+class Vehicle(sysModel.SysModel):
+    """What both halves do. In a task it comes after its `modules`, of which `body` is the last."""
+
+    def __init__(self, body):
+        super().__init__()
+        self.body, self.modules, self.parts, self.messages = body, [], {}, []
+        self.integrator, self.kept = INTEGRATOR(body), []  # Basilisk has raw pointers to what is kept
+        body.setIntegrator(self.integrator)
+        self.acting, self.coming = {}, list(INPUTS)
+        self.driven = {name for _, inputs in INPUTS for name in inputs}
+
+    def link(self, port, kind, field, inputs):
+        names = [inputs] if isinstance(inputs, str) else inputs
+        if self.driven.isdisjoint(names):
+            return
+        message = getattr(messaging, kind + "Msg")()
+        port.subscribeTo(message)
+        self.messages.append((message, getattr(messaging, kind + "MsgPayload"), field, inputs))
+
+    def Reset(self, now):
+        for name in self.states.keys() & INITIAL.keys():
+            state, row = self.states[name]
+            state = self.body.dynManager.getStateObject(state)
+            column = np.array(state.getState())
+            column[row:row + np.size(INITIAL[name]), 0] = INITIAL[name]
+            state.setState(column)
+)py";
+
+constexpr std::string_view kTolerance =
+    R"py(        self.integrator.setAbsoluteTolerance(ABSOLUTE)
+        self.integrator.setRelativeTolerance(RELATIVE)
+)py";
+
+constexpr std::string_view kFlight = R"py(
+    def UpdateState(self, now):
+        while self.coming and round(1e9 * self.coming[0][0]) <= now:
+            self.acting |= self.coming.pop(0)[1]
+        for message, payload, field, inputs in self.messages:
+            names = [inputs] if isinstance(inputs, str) else inputs
+            values = [self.acting.get(name, 0) for name in names]
+            message.write(payload(**{field: values[0] if names is not inputs else values}), now)
+        for module in self.modules[:-1]:
+            module.UpdateState(now)
+
+    def row(self, t):
+        """A line of our CSV."""
+        seen, com, mass = self.seen.read(), *self.whole()
+        s = np.array(seen.sigma_BN)
+        q = np.hstack([1 - s @ s, 2 * s]) / (1 + s @ s)
+        places = [self.states[column.split(" ")[0]] for column in COLUMNS[20:-1]]
+        joints = [self.body.dynManager.getStateObject(state).getState()[row][0] for state, row in places]
+        row = np.hstack([t, @r_BN_N@, seen.v_BN_N, q, seen.omega_BN_B, com, joints, mass])
+        if not np.isfinite(row).all():
+            sys.exit(f"the motion is not finite at {t} s")
+        return row
+
+    def fly(self, step, duration):
+        """The lines of our CSV. Steps end at multiples of `step` and where INPUTS change."""
+        yield COLUMNS
+        for module in [*self.modules, self]:
+            module.SelfInit()
+        for module in [*self.modules, self]:
+            module.Reset(0)
+        self.UpdateState(0)
+        self.body.UpdateState(0)
+        yield self.row(0.0)
+        grid = np.arange(1, int(duration / step + 1e-9) + 1) * step
+        changes = [time for time, _ in INPUTS if 0 < time < duration]
+        times = np.unique(np.rint(1e9 * np.hstack([grid, changes, duration])).astype(int))
+        self.steps, self.seconds, samples = len(times), 0, 1
+        for now in times.tolist():
+            begin = time.perf_counter()
+            self.body.UpdateState(now)
+            self.seconds += time.perf_counter() - begin
+            if now >= round(1e9 * (samples * RECORD)) or now == times[-1]:
+                yield self.row(now / 1e9)
+                samples = int((now + 1) / 1e9 / RECORD) + 1
+            if self.coming and round(1e9 * self.coming[0][0]) <= now:
+                self.UpdateState(now)
+
+
+@classes@
+
+def build(sim, task, engine="@engine@"):
+    """Put the vehicle into a task of your simulation, and keep it. INPUTS act from the first tick at or after
+    their times; after INPUTS.clear() nothing acts but what you subscribe its `parts` to. `body` has its output."""
+    vehicle = HALVES[engine]()
+    for i, module in enumerate([*vehicle.modules, vehicle]):
+        sim.AddModelToTask(task, module, 1000 - i)
+    return vehicle
+
+
+)py";
+
+constexpr std::string_view kMain = R"py(
+if __name__ == "__main__":
+    line = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    line.add_argument("--engine", choices=["bsm", "mjscene", "both"], default="both")
+    line.add_argument("--step", type=float, default=STEP, help="[s]")
+    line.add_argument("--duration", type=float, default=DURATION, help="[s]")
+    line.add_argument("-o", type=pathlib.Path, default=".", metavar="DIR")
+    asked = line.parse_args()
+    for name in sorted(HALVES.keys() - REFUSED.keys()) if asked.engine == "both" else [asked.engine]:
+        if name in REFUSED:
+            sys.exit(f"{name}: {REFUSED[name]}")
+        asked.o.mkdir(parents=True, exist_ok=True)
+        path, vehicle = asked.o / f"basilisk_{name}.csv", HALVES[name]()
+        with path.with_suffix(".new").open("w") as new:
+            for row in vehicle.fly(asked.step, asked.duration):
+                print(*row, sep=",", file=new)
+        path.with_suffix(".new").replace(path)
+        print(f"{name}: {vehicle.steps} steps, {1e6 * vehicle.seconds / vehicle.steps:.2f} us per step")
+)py";
+
+std::string_view method_of(Method method) {
+  switch (method) {
+    case Method::kEuler:
+      return "svIntegratorEuler";
+    case Method::kRk2:
+      return "svIntegratorRK2";
+    case Method::kRk4:
+      return "svIntegratorRK4";
+    case Method::kRkf45:
+      return "svIntegratorRKF45";
+    case Method::kRkf78:
+      return "svIntegratorRKF78";
+  }
+  return {};
+}
+
+bool is_adaptive(Method method) { return method == Method::kRkf45 || method == Method::kRkf78; }
+
+/// The tightest of all blocks: Basilisk's are for every state alike.
+Tolerance tightest(const BlockTolerances& blocks) {
+  Tolerance least = blocks.position;
+  for (const Tolerance& each : {blocks.velocity, blocks.attitude, blocks.rate, blocks.joint,
+                                blocks.joint_rate, blocks.wheel}) {
+    least.absolute = std::min(least.absolute, each.absolute);
+    least.relative = std::min(least.relative, each.relative);
+  }
+  return least;
+}
+
+/// An input of the script: a number, or the components of a vector.
+struct Input {
+  std::string name;
+  std::vector<const Schedule*> schedules;
+
+  Json at(double time) const {
+    Json values = Json::array();
+    for (const Schedule* each : schedules) values.push_back(each->at(time));
+    return values.size() == 1 ? values.front() : values;
+  }
+  bool is_zero() const {
+    return std::ranges::all_of(schedules, [](const Schedule* each) { return each->is_zero(); });
+  }
+};
+
+std::vector<const Schedule*> pointers(const std::array<Schedule, 3>& schedules) {
+  return {&schedules[0], &schedules[1], &schedules[2]};
+}
+
+/// Those that ever act.
+std::vector<Input> acting_inputs(const Model& model) {
+  std::vector<Input> inputs;
+  for (const Rotor& rotor : model.assembly.rotors)
+    inputs.push_back({rotor.name + ".torque", {&rotor.torque}});
+  for (const Link& link : model.assembly.links)
+    inputs.push_back({link.name + (link.joint.kind == JointKind::kHinge ? ".torque" : ".force"),
+                      {&link.joint.effort}});
+  for (const Load& load : model.loads) {
+    inputs.push_back({load.name + ".force", pointers(load.force_L)});
+    inputs.push_back({load.name + ".torque", pointers(load.torque_L)});
+  }
+  for (const Tank& tank : model.tanks) inputs.push_back({tank.name + ".flow", {&tank.mass_flow}});
+  for (const Nozzle& nozzle : model.nozzles)
+    inputs.push_back({nozzle.name + ".flow", {&nozzle.mass_flow}});
+  std::erase_if(inputs, &Input::is_zero);
+  return inputs;
+}
+
+/// What acts, by the time from which it does: all at t = 0, then what changes. A time at which
+/// nothing does stays: a step ends there.
+std::string inputs_of_script(const Model& model) {
+  const std::vector<Input> inputs = acting_inputs(model);
+  std::set<double> times = {0.0};
+  for (const Input& input : inputs)
+    for (const Schedule* schedule : input.schedules)
+      for (const Schedule::Entry& entry : schedule->entries)
+        if (entry.time > 0.0) times.insert(entry.time);
+  Json all = Json::array();
+  std::vector<Json> last(inputs.size());
+  for (const double time : times) {
+    Json changes = Json::object();
+    for (std::size_t i = 0; i < inputs.size(); ++i) {
+      Json value = inputs[i].at(time);
+      if (value != last[i]) changes[inputs[i].name] = value;
+      last[i] = std::move(value);
+    }
+    all.push_back(Json::array({time, std::move(changes)}));
+  }
+  if (inputs.empty()) all = Json::array();
+  return wrapped("What acts, by the time from which it does [s; N, N m, kg/s].", "# ", "# ") +
+         assignment("INPUTS", all);
+}
+
+/// The header of our CSV.
+std::string columns(const Model& model) {
+  Json all = {"t [s]"};
+  for (const OutputSignal& output : outputs_of(model))
+    for (std::size_t i = 0; i < output.size(); ++i)
+      all.push_back(fmt::format("{} [{}]", output.component(i), output.unit));
+  return assignment("COLUMNS", all);
+}
+
+double initial_of(const Model& model, const OutputSignal& output) {
+  const Coordinate& coordinate = output.coordinate.value();
+  const VehicleState& initial = model.initial;
+  const std::vector<double>& values = coordinate.is_wheel() ? initial.wheel_rate
+                                      : output.of == OutputSignal::Of::kCoordinateRate
+                                          ? initial.joint_rate
+                                          : initial.joint_position;
+  return values[coordinate.entry()];
+}
+
+/// Attitude as a quaternion for one half, as MRPs for the other.
+std::string initial_state(const Model& model) {
+  const VehicleState& initial = model.initial;
+  const bool is_point = model.simulation.translation;
+  const double sign = initial.q_BN.w() < 0.0 ? -1.0 : 1.0;
+  const double w = is_point ? 1.0 : sign * initial.q_BN.w();
+  const Vector3d part = is_point ? Vector3d::Zero().eval() : (sign * initial.q_BN.vec()).eval();
+  Json state = {{"r_BN_N", vector_json(initial.r_BN_N)},
+                {"v_BN_N", vector_json(initial.v_BN_N)},
+                {"q_BN", {w, part.x(), part.y(), part.z()}},
+                {"sigma_BN", vector_json(part / (1.0 + w))},
+                {"omega_BN_B", vector_json(initial.omega_BN_B)}};
+  if (is_point) state["r_CN_N"] = vector_json(initial.r_BN_N + hub_of(model).r_CL_L);
+  for (const OutputSignal& output : outputs_of(model))
+    if (output.coordinate && initial_of(model, output) != 0.0)
+      state[output.name] = initial_of(model, output);
+  return assignment("INITIAL", state);
+}
+
+std::string run_of(const Model& model) {
+  const SimulationPlan& plan = model.simulation;
+  std::string text = fmt::format("STEP, DURATION, RECORD = {}, {}, {}  # [s]\n", shortest(plan.step),
+                                 shortest(plan.duration), shortest(plan.record));
+  text += fmt::format("INTEGRATOR = svIntegrators.{}\n", method_of(plan.method));
+  if (is_adaptive(plan.method)) {
+    const Tolerance tolerance = tightest(plan.tolerance);
+    text += assignment("ABSOLUTE", tolerance.absolute) + assignment("RELATIVE", tolerance.relative);
+  }
+  if (model.gravity.mu > 0.0) text += assignment("MU", model.gravity.mu);
+  return text;
+}
+
+/// Remarks as one sentence each, with who they are about.
+std::vector<std::string> sentences(const std::vector<Remark>& remarks) {
+  std::vector<std::string> all;
+  for (const Remark& each : remarks)
+    all.push_back(each.component.empty() ? each.text
+                                         : fmt::format("{}: {}", each.component, each.text));
+  return all;
+}
+
+bool is_whole_ns(double seconds) {
+  const double ns = seconds * 1.0e9;
+  return std::abs(ns - std::round(ns)) <= 1.0e-6;
+}
+
+/// What is said of both halves.
+std::vector<Remark> notes_of(const Model& model) {
+  std::vector<double> times = input_events(model);
+  times.push_back(model.simulation.step);
+  std::vector<Remark> notes;
+  if (!std::ranges::all_of(times, is_whole_ns))
+    notes.push_back({"", "steps and events are at whole nanoseconds, which these times are not: "
+                         "samples differ by up to half a nanosecond of motion"});
+  return notes;
+}
+
+void replace(std::string& text, std::string_view mark, std::string_view by) {
+  text.replace(text.find(mark), mark.size(), by);
+}
+
+struct Script {
+  std::vector<Remark> notes;
+  Half bsm, mjscene;
+
+  explicit Script(const Model& model)
+      : notes(notes_of(model)), bsm(bsm_half(model)), mjscene(mjscene_half(model)) {}
+};
+
+std::string docstring(const Model& model, const Script& script, const std::string& digest) {
+  std::string text;
+  const std::string what = model.description.empty() ? "a spacecraft" : model.description;
+  text += wrapped(fmt::format("{}: {}", model.name, what), "\"\"\"", "");
+  text += "\n" + wrapped(fmt::format("For Basilisk 2.12 and later, by sccompile " TWINCRAFT_VERSION
+                                     ", from the spec whose resolved form has the SHA-256 {}. SI "
+                                     "units and radians; names as in Basilisk.",
+                                     digest),
+                         "", "");
+  const auto say = [&text](std::string_view half, const std::vector<Remark>& remarks) {
+    for (const std::string& each : sentences(remarks))
+      text += wrapped(each, fmt::format("- {}: ", half), "  ");
+  };
+  std::string remarks;
+  std::swap(text, remarks);
+  for (const std::string& each : sentences(script.notes)) text += wrapped(each, "- ", "  ");
+  say("bsm, not written", script.bsm.refusals);
+  say("bsm", script.bsm.notes);
+  say("mjscene, not written", script.mjscene.refusals);
+  say("mjscene", script.mjscene.notes);
+  std::swap(text, remarks);
+  if (!remarks.empty()) text += "\nNot as in the spec:\n" + remarks;
+  return text + "\"\"\"";
+}
+
+std::string imports_of(const Script& script) {
+  std::set<std::string> modules = script.bsm.simulation;
+  modules.insert(script.mjscene.simulation.begin(), script.mjscene.simulation.end());
+  modules.insert("svIntegrators");
+  std::vector<std::string> sorted(modules.begin(), modules.end());
+  std::string text = wrapped(fmt::format("{})", fmt::join(sorted, ", ")),
+                             "    from Basilisk.simulation import (\n        ", "        ");
+  return std::string(kImports) + text + std::string(kVersion);
+}
+
+std::string refused(const Half& half) {
+  return fmt::format("{}", fmt::join(sentences(half.refusals), "; "));
+}
+
+/// Which classes there are, and why one is missing.
+std::string halves(const Script& script) {
+  Json refusals = Json::object();
+  std::vector<std::string> classes;
+  const auto add = [&](const Half& half, const char* name, const char* python) {
+    if (half.refusals.empty())
+      classes.push_back(fmt::format("\"{}\": {}", name, python));
+    else
+      refusals[name] = refused(half);
+  };
+  add(script.bsm, "bsm", "Bsm");
+  add(script.mjscene, "mjscene", "MjScene");
+  std::string text = fmt::format("HALVES = {{{}}}\n", fmt::join(classes, ", "));
+  text += assignment("REFUSED", refusals);
+  if (script.mjscene.refusals.empty())
+    text += "if not Basilisk.hasBuildFeature(\"mujoco\"):\n"
+            "    REFUSED[\"mjscene\"] = \"this Basilisk was built without MuJoCo\"\n";
+  return text;
+}
+
+}  // namespace
+
+std::string enumeration(const std::vector<std::string>& names) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (i > 0) text += i + 1 == names.size() ? " and " : ", ";
+    text += "`" + names[i] + "`";
+  }
+  return text;
+}
+
+std::string emit_basilisk(const Model& model, const Json& resolved) {
+  const Script script(model);
+  std::string text = docstring(model, script, sha256(emit_resolved(resolved)));
+  text += imports_of(script);
+  text += run_of(model) + columns(model) + initial_state(model);
+  text += inputs_of_script(model);
+  text += script.bsm.tables + script.mjscene.tables;
+  text += kVehicle;
+  if (is_adaptive(model.simulation.method)) text += kTolerance;
+  std::string flight(kFlight);
+  // Of a point mass one half flies B, the other the centre of mass.
+  replace(flight, "@r_BN_N@",
+          model.simulation.translation ? "np.subtract(com[:3], CENTER)" : "seen.r_BN_N");
+  replace(flight, "\n@classes@", script.bsm.code + script.mjscene.code);
+  replace(flight, "@engine@", script.bsm.refusals.empty() ? "bsm" : "mjscene");
+  return text + flight + halves(script) + std::string(kMain);
+}
+
+std::string basilisk_refusal(const Model& model) {
+  const Script script(model);
+  if (script.bsm.refusals.empty() || script.mjscene.refusals.empty()) return {};
+  return fmt::format("Basilisk's BSM does not express it ({}), nor does its MJScene ({})",
+                     refused(script.bsm), refused(script.mjscene));
+}
+
+std::vector<Remark> basilisk_remarks(const Model& model) {
+  const Script script(model);
+  std::vector<Remark> all = script.notes;
+  const auto add = [&all](const char* name, const Half& half) {
+    for (const Remark& each : half.refusals)
+      all.push_back({each.component, fmt::format("not in {}: {}", name, each.text), true});
+    for (const Remark& each : half.notes)
+      all.push_back({each.component, fmt::format("in {}: {}", name, each.text)});
+  };
+  add("Basilisk's BSM", script.bsm);
+  add("Basilisk's MJScene", script.mjscene);
+  return all;
+}
+
+}  // namespace twincraft

@@ -1,0 +1,32 @@
+// One half of a Basilisk script: the vehicle in one of Basilisk's two formulations of its dynamics.
+#pragma once
+
+#include <set>
+#include <string>
+#include <vector>
+
+#include "compiler/emit/remark.h"
+#include "compiler/ir/model.h"
+
+namespace twincraft {
+
+struct Half {
+  std::vector<Remark> refusals;      // why it is not written; none: it is
+  std::vector<Remark> notes;         // what it writes otherwise than the spec says it
+  std::set<std::string> simulation;  // what it imports of Basilisk.simulation
+  std::string tables;                // its data, at the top of the script
+  std::string code;                  // its class
+};
+
+/// State effectors on a Spacecraft, solved by back-substitution.
+Half bsm_half(const Model& model);
+/// Bodies of an MJScene, solved by MuJoCo.
+Half mjscene_half(const Model& model);
+
+/// What is fixed on the hub, tanks apart.
+MassProperties hub_of(const Model& model);
+
+/// `A`, `B` and `C`: in backticks, for a sentence.
+std::string enumeration(const std::vector<std::string>& names);
+
+}  // namespace twincraft
