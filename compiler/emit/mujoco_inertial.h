@@ -1,4 +1,5 @@
-// Mass and inertia as MuJoCo takes them, and loses nothing of them. Tested by tests/runtime/mjcf_test.cpp.
+// Mass and inertia as MuJoCo takes them, and loses nothing of them. Tested by
+// tests/runtime/mjcf_test.cpp.
 #pragma once
 
 #include "compiler/ir/mass.h"

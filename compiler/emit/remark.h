@@ -6,8 +6,8 @@
 namespace twincraft {
 
 struct Remark {
-  std::string component;  // by its name; empty: the vehicle as a whole
-  std::string text;       // lower case, no full stop
+  std::string component;    // by its name; empty: the vehicle as a whole
+  std::string text;         // lower case, no full stop
   bool is_refusal = false;  // a part of the target cannot have it; else it is written otherwise
 
   bool operator==(const Remark&) const = default;

@@ -31,40 +31,34 @@ import argparse
 import pathlib
 import sys
 import time
-
 try:
     import Basilisk
     import numpy as np
     from Basilisk.architecture import messaging, sysModel
 )py";
 
-constexpr std::string_view kVersion = R"py(    if [int(number) for number in Basilisk.__version__.split(".")[:2]] < [2, 12]:
-        raise ImportError(f"this is Basilisk {Basilisk.__version__}")
-except ImportError as error:
+constexpr std::string_view kVersion =
+    R"py(    assert [int(n) for n in Basilisk.__version__.split(".")[:2]] >= [2, 12], f"this is {Basilisk.__version__}"
+except (ImportError, AssertionError) as error:
     sys.exit(f"Basilisk 2.12 or later and numpy are needed (pip install bsk): {error}")
-
 )py";
 
 constexpr std::string_view kVehicle = R"py(
 
 class Vehicle(sysModel.SysModel):
-    """What both halves do. In a task it comes after its `modules`, of which `body` is the last."""
+    """In a task after its `modules`: it sets the state of t = 0, and holds what acts."""
 
-    def __init__(self, body):
+    def __init__(self, engine):
         super().__init__()
-        self.body, self.modules, self.parts, self.messages = body, [], {}, []
-        self.integrator, self.kept = INTEGRATOR(body), []  # Basilisk has raw pointers to what is kept
-        body.setIntegrator(self.integrator)
-        self.acting, self.coming = {}, list(INPUTS)
-        self.driven = {name for _, inputs in INPUTS for name in inputs}
-
-    def link(self, port, kind, field, inputs):
-        names = [inputs] if isinstance(inputs, str) else inputs
-        if self.driven.isdisjoint(names):
-            return
-        message = getattr(messaging, kind + "Msg")()
-        port.subscribeTo(message)
-        self.messages.append((message, getattr(messaging, kind + "MsgPayload"), field, inputs))
+        self.modules, self.parts, self.holds, self.acting, self.coming = [], {}, [], {}, list(INPUTS)
+@kept@        getattr(self, engine)()
+        self.modules.append(self.body)
+        self.integrator = INTEGRATOR(self.body)
+        self.body.setIntegrator(self.integrator)
+@halves@
+    def link(self, port, kind, content):
+        port.subscribeTo(message := getattr(messaging, kind + "Msg")())
+        self.holds.append(lambda now: message.write(getattr(messaging, kind + "MsgPayload")(**content(self.acting)), now))
 
     def Reset(self, now):
         for name in self.states.keys() & INITIAL.keys():
@@ -78,30 +72,30 @@ class Vehicle(sysModel.SysModel):
 constexpr std::string_view kTolerance =
     R"py(        self.integrator.setAbsoluteTolerance(ABSOLUTE)
         self.integrator.setRelativeTolerance(RELATIVE)
+        for name in {"mujocoQpos", "mujocoQvel"} & {state for state, _ in self.states.values()}:
+            # all coordinates at once: nothing is relative to an orbit's radius
+            self.integrator.setRelativeTolerance(name, 0)
+            self.integrator.setAbsoluteTolerance(name, ABSOLUTE + 1e-15 * np.linalg.norm(INITIAL["r_BN_N"]))
 )py";
 
 constexpr std::string_view kFlight = R"py(
     def UpdateState(self, now):
         while self.coming and round(1e9 * self.coming[0][0]) <= now:
             self.acting |= self.coming.pop(0)[1]
-        for message, payload, field, inputs in self.messages:
-            names = [inputs] if isinstance(inputs, str) else inputs
-            values = [self.acting.get(name, 0) for name in names]
-            message.write(payload(**{field: values[0] if names is not inputs else values}), now)
+        for hold in self.holds:
+            hold(now)
         for module in self.modules[:-1]:
             module.UpdateState(now)
 
     def row(self, t):
         """A line of our CSV."""
-        seen, com, mass = self.seen.read(), *self.whole()
+        com, mass = self.whole(seen := self.seen.read())
         s = np.array(seen.sigma_BN)
         q = np.hstack([1 - s @ s, 2 * s]) / (1 + s @ s)
         places = [self.states[column.split(" ")[0]] for column in COLUMNS[20:-1]]
         joints = [self.body.dynManager.getStateObject(state).getState()[row][0] for state, row in places]
-        row = np.hstack([t, @r_BN_N@, seen.v_BN_N, q, seen.omega_BN_B, com, joints, mass])
-        if not np.isfinite(row).all():
-            sys.exit(f"the motion is not finite at {t} s")
-        return row
+        row = np.hstack([t, @r_BN_N@, seen.v_BN_N, q, seen.omega_BN_B, com, joints, np.ravel(mass)[0]])
+        return row if np.isfinite(row).all() else sys.exit(f"the motion is not finite at {t} s")
 
     def fly(self, step, duration):
         """The lines of our CSV. Steps end at multiples of `step` and where INPUTS change."""
@@ -113,8 +107,7 @@ constexpr std::string_view kFlight = R"py(
         self.UpdateState(0)
         self.body.UpdateState(0)
         yield self.row(0.0)
-        grid = np.arange(1, int(duration / step + 1e-9) + 1) * step
-        changes = [time for time, _ in INPUTS if 0 < time < duration]
+        grid, changes = np.arange(1, int(duration / step + 1e-9) + 1) * step, [t for t, _ in INPUTS if 0 < t < duration]
         times = np.unique(np.rint(1e9 * np.hstack([grid, changes, duration])).astype(int))
         self.steps, self.seconds, samples = len(times), 0, 1
         for now in times.tolist():
@@ -128,16 +121,12 @@ constexpr std::string_view kFlight = R"py(
                 self.UpdateState(now)
 
 
-@classes@
-
 def build(sim, task, engine="@engine@"):
-    """Put the vehicle into a task of your simulation, and keep it. INPUTS act from the first tick at or after
-    their times; after INPUTS.clear() nothing acts but what you subscribe its `parts` to. `body` has its output."""
-    vehicle = HALVES[engine]()
+    """Put the vehicle into a task of your own. INPUTS act from ticks on; after INPUTS.clear() none does. Keep it."""
+    vehicle = Vehicle(engine)
     for i, module in enumerate([*vehicle.modules, vehicle]):
         sim.AddModelToTask(task, module, 1000 - i)
     return vehicle
-
 
 )py";
 
@@ -149,14 +138,13 @@ if __name__ == "__main__":
     line.add_argument("--duration", type=float, default=DURATION, help="[s]")
     line.add_argument("-o", type=pathlib.Path, default=".", metavar="DIR")
     asked = line.parse_args()
-    for name in sorted(HALVES.keys() - REFUSED.keys()) if asked.engine == "both" else [asked.engine]:
+    for name in HALVES if asked.engine == "both" else [asked.engine]:
         if name in REFUSED:
             sys.exit(f"{name}: {REFUSED[name]}")
         asked.o.mkdir(parents=True, exist_ok=True)
-        path, vehicle = asked.o / f"basilisk_{name}.csv", HALVES[name]()
+        path, vehicle = asked.o / f"basilisk_{name}.csv", Vehicle(name)
         with path.with_suffix(".new").open("w") as new:
-            for row in vehicle.fly(asked.step, asked.duration):
-                print(*row, sep=",", file=new)
+            new.writelines(",".join(map(str, row)) + "\n" for row in vehicle.fly(asked.step, asked.duration))
         path.with_suffix(".new").replace(path)
         print(f"{name}: {vehicle.steps} steps, {1e6 * vehicle.seconds / vehicle.steps:.2f} us per step")
 )py";
@@ -176,8 +164,6 @@ std::string_view method_of(Method method) {
   }
   return {};
 }
-
-bool is_adaptive(Method method) { return method == Method::kRkf45 || method == Method::kRkf78; }
 
 /// The tightest of all blocks: Basilisk's are for every state alike.
 Tolerance tightest(const BlockTolerances& blocks) {
@@ -249,8 +235,7 @@ std::string inputs_of_script(const Model& model) {
     all.push_back(Json::array({time, std::move(changes)}));
   }
   if (inputs.empty()) all = Json::array();
-  return wrapped("What acts, by the time from which it does [s; N, N m, kg/s].", "# ", "# ") +
-         assignment("INPUTS", all);
+  return assignment("INPUTS", all, "from when on [s, N, N m, kg/s]");
 }
 
 /// The header of our CSV.
@@ -284,6 +269,10 @@ std::string initial_state(const Model& model) {
                 {"q_BN", {w, part.x(), part.y(), part.z()}},
                 {"sigma_BN", vector_json(part / (1.0 + w))},
                 {"omega_BN_B", vector_json(initial.omega_BN_B)}};
+  if (part.isZero(0.0)) {  // as they are by themselves
+    state.erase("q_BN");
+    state.erase("sigma_BN");
+  }
   if (is_point) state["r_CN_N"] = vector_json(initial.r_BN_N + hub_of(model).r_CL_L);
   for (const OutputSignal& output : outputs_of(model))
     if (output.coordinate && initial_of(model, output) != 0.0)
@@ -293,9 +282,9 @@ std::string initial_state(const Model& model) {
 
 std::string run_of(const Model& model) {
   const SimulationPlan& plan = model.simulation;
-  std::string text = fmt::format("STEP, DURATION, RECORD = {}, {}, {}  # [s]\n", shortest(plan.step),
-                                 shortest(plan.duration), shortest(plan.record));
-  text += fmt::format("INTEGRATOR = svIntegrators.{}\n", method_of(plan.method));
+  std::string text = fmt::format(
+      "STEP, DURATION, RECORD, INTEGRATOR = {}, {}, {}, svIntegrators.{}  # [s]\n",
+      shortest(plan.step), shortest(plan.duration), shortest(plan.record), method_of(plan.method));
   if (is_adaptive(plan.method)) {
     const Tolerance tolerance = tightest(plan.tolerance);
     text += assignment("ABSOLUTE", tolerance.absolute) + assignment("RELATIVE", tolerance.relative);
@@ -324,8 +313,9 @@ std::vector<Remark> notes_of(const Model& model) {
   times.push_back(model.simulation.step);
   std::vector<Remark> notes;
   if (!std::ranges::all_of(times, is_whole_ns))
-    notes.push_back({"", "steps and events are at whole nanoseconds, which these times are not: "
-                         "samples differ by up to half a nanosecond of motion"});
+    notes.push_back({"",
+                     "steps and events are at whole nanoseconds, which these times are not: "
+                     "samples differ by up to half a nanosecond of motion"});
   return notes;
 }
 
@@ -345,11 +335,12 @@ std::string docstring(const Model& model, const Script& script, const std::strin
   std::string text;
   const std::string what = model.description.empty() ? "a spacecraft" : model.description;
   text += wrapped(fmt::format("{}: {}", model.name, what), "\"\"\"", "");
-  text += "\n" + wrapped(fmt::format("For Basilisk 2.12 and later, by sccompile " TWINCRAFT_VERSION
-                                     ", from the spec whose resolved form has the SHA-256 {}. SI "
-                                     "units and radians; names as in Basilisk.",
-                                     digest),
-                         "", "");
+  text += wrapped(
+      fmt::format("By sccompile " TWINCRAFT_VERSION " for Basilisk 2.12 and later, from the "
+                  "spec whose resolved form has the SHA-256 {}. SI units and radians, names "
+                  "as in Basilisk.",
+                  digest),
+      "\n", "");
   const auto say = [&text](std::string_view half, const std::vector<Remark>& remarks) {
     for (const std::string& each : sentences(remarks))
       text += wrapped(each, fmt::format("- {}: ", half), "  ");
@@ -370,37 +361,37 @@ std::string imports_of(const Script& script) {
   std::set<std::string> modules = script.bsm.simulation;
   modules.insert(script.mjscene.simulation.begin(), script.mjscene.simulation.end());
   modules.insert("svIntegrators");
-  std::vector<std::string> sorted(modules.begin(), modules.end());
-  std::string text = wrapped(fmt::format("{})", fmt::join(sorted, ", ")),
-                             "    from Basilisk.simulation import (\n        ", "        ");
-  return std::string(kImports) + text + std::string(kVersion);
+  const std::string names = fmt::format("{}", fmt::join(modules, ", "));
+  const std::string line = "    from Basilisk.simulation import ";
+  const bool fits = line.size() + names.size() <= kScriptLine;
+  return std::string(kImports) +
+         (fits ? line + names + "\n" : filled(names + ")", line + "(\n        ", "        ")) +
+         std::string(kVersion);
 }
 
 std::string refused(const Half& half) {
   return fmt::format("{}", fmt::join(sentences(half.refusals), "; "));
 }
 
-/// Which classes there are, and why one is missing.
+/// Which halves fly, and why one does not.
 std::string halves(const Script& script) {
   Json refusals = Json::object();
-  std::vector<std::string> classes;
-  const auto add = [&](const Half& half, const char* name, const char* python) {
-    if (half.refusals.empty())
-      classes.push_back(fmt::format("\"{}\": {}", name, python));
-    else
-      refusals[name] = refused(half);
-  };
-  add(script.bsm, "bsm", "Bsm");
-  add(script.mjscene, "mjscene", "MjScene");
-  std::string text = fmt::format("HALVES = {{{}}}\n", fmt::join(classes, ", "));
-  text += assignment("REFUSED", refusals);
-  if (script.mjscene.refusals.empty())
-    text += "if not Basilisk.hasBuildFeature(\"mujoco\"):\n"
-            "    REFUSED[\"mjscene\"] = \"this Basilisk was built without MuJoCo\"\n";
-  return text;
+  if (!script.bsm.refusals.empty()) refusals["bsm"] = refused(script.bsm);
+  if (!script.mjscene.refusals.empty()) refusals["mjscene"] = refused(script.mjscene);
+  std::string text;
+  if (!refusals.empty()) text += assignment("REFUSED", refusals);
+  if (script.mjscene.refusals.empty()) {
+    text += refusals.empty() ? "REFUSED = {} if " : "REFUSED |= {} if ";
+    text +=
+        "Basilisk.hasBuildFeature(\"mujoco\") else {\"mjscene\": \"this Basilisk has no "
+        "MuJoCo\"}\n";
+  }
+  return text + "HALVES = [name for name in (\"bsm\", \"mjscene\") if name not in REFUSED]\n";
 }
 
 }  // namespace
+
+bool is_adaptive(Method method) { return method == Method::kRkf45 || method == Method::kRkf78; }
 
 std::string enumeration(const std::vector<std::string>& names) {
   std::string text;
@@ -417,16 +408,20 @@ std::string emit_basilisk(const Model& model, const Json& resolved) {
   text += imports_of(script);
   text += run_of(model) + columns(model) + initial_state(model);
   text += inputs_of_script(model);
-  text += script.bsm.tables + script.mjscene.tables;
-  text += kVehicle;
+  text += script.bsm.tables + script.mjscene.tables + halves(script) + script.mjscene.models;
+  std::string vehicle(kVehicle);
+  replace(vehicle, "@halves@\n", script.bsm.code + script.mjscene.code + "\n");
+  const bool keeps = vehicle.find("self.kept") != std::string::npos;
+  replace(vehicle, "@kept@",
+          keeps ? "        self.kept = []  # Basilisk has raw pointers to these\n" : "");
+  text += vehicle;
   if (is_adaptive(model.simulation.method)) text += kTolerance;
   std::string flight(kFlight);
   // Of a point mass one half flies B, the other the centre of mass.
   replace(flight, "@r_BN_N@",
           model.simulation.translation ? "np.subtract(com[:3], CENTER)" : "seen.r_BN_N");
-  replace(flight, "\n@classes@", script.bsm.code + script.mjscene.code);
   replace(flight, "@engine@", script.bsm.refusals.empty() ? "bsm" : "mjscene");
-  return text + flight + halves(script) + std::string(kMain);
+  return text + flight + std::string(kMain);
 }
 
 std::string basilisk_refusal(const Model& model) {

@@ -9,16 +9,13 @@ namespace twincraft {
 namespace {
 
 constexpr std::string_view kBegin = R"py(
-
-class Bsm(Vehicle):
-    """A Spacecraft with effectors, solved by back-substitution."""
-
-    def __init__(self):
-        super().__init__(spacecraft.Spacecraft())
-        self.states = {"@position@": ("hubPosition", 0), "v_BN_N": ("hubVelocity", 0)@turning@}
+    def bsm(self):
+        """A Spacecraft with effectors, solved by back-substitution."""
+        self.body = spacecraft.Spacecraft()
         self.seen = self.body.scStateOutMsg
-        for key, value in HUB.items():
-            setattr(self.body.hub, key, value)
+        self.whole = lambda seen: ([*seen.r_CN_N, *seen.v_CN_N], self.body.scMassOutMsg.read().massSC)
+        self.states = {"@position@": ("hubPosition", 0), "v_BN_N": ("hubVelocity", 0)@turning@}
+        self.body.hub.mHub, self.body.hub.r_BcB_B, self.body.hub.IHubPntBc_B = HUB
 )py";
 constexpr std::string_view kTurning =
     R"py(,
@@ -32,25 +29,22 @@ constexpr std::string_view kWheels =
         wheels.setMaxWheelAcceleration(1e300)  # a motor gives what it is told
         wheels.setLargeTorqueThreshold(1e300)
         wheels.nameOfReactionWheelOmegasState = "wheels"
-        for row, (name, keys) in enumerate(WHEELS.items()):
+        for row, (name, (axis, inertia)) in enumerate(WHEELS.items()):
             wheel = reactionWheelStateEffector.RWConfigPayload()
-            for key, value in keys.items():
-                setattr(wheel, key, value)
+            wheel.gsHat_B, wheel.Js = axis, inertia
             wheels.addReactionWheel(wheel)
+            self.parts[name] = wheels
             self.states[name + ".rate"] = ("wheels", row)
-        self.add(wheels, WHEELS, "Torque", wheels.rwMotorCmdInMsg)
+)py";
+constexpr std::string_view kWheelMotors =
+    R"py(        self.link(wheels.rwMotorCmdInMsg, "ArrayMotorTorque",
+                  lambda u: {"motorTorque": [u.get(name + ".torque", 0) for name in WHEELS]})
 )py";
 
-constexpr std::string_view kAdd = R"py(
-    def add(self, effector, names, effort=None, port=None):
-        self.body.addStateEffector(effector)
-        self.modules.append(effector)
-        self.parts.update(dict.fromkeys(names, effector))
-)py";
-constexpr std::string_view kLinkMotors =
-    R"py(        if effort:
-            inputs = [f"{name}.{effort}".lower() for name in names]
-            self.link(port, "ArrayMotor" + effort, "motor" + effort, inputs)
+constexpr std::string_view kAddAll =
+    R"py(        self.modules = list(dict.fromkeys(self.parts.values()))
+        for effector in self.modules:
+            self.body.addStateEffector(effector)
 )py";
 
 // Hinges and slides differ in names alone.
@@ -63,20 +57,21 @@ constexpr std::string_view kChains = R"py(        for name, links in @TABLE@.ite
                 for key, value in keys.items():
                     getattr(body, "set" + key)(value)
                 chain.add@Body@(body)
-                self.kept.append(body)
                 self.states |= {link + ".position": (name, row), link + ".rate": (name + ".rate", row)}
 )py";
-constexpr std::string_view kRests = R"py(                if link in @JOINT@_RESTS:
-                    rest = messaging.@Reference@MsgPayload(@theta@=@JOINT@_RESTS[link])
+constexpr std::string_view kRests = R"py(                if link in RESTS:
+                    rest = messaging.@Reference@MsgPayload(@theta@=RESTS[link])
                     self.kept.append(messaging.@Reference@Msg().write(rest))
                     chain.@body@RefInMsgs[row].subscribeTo(self.kept[-1])
 )py";
-constexpr std::string_view kEndOfChain =
-    R"py(            self.add(chain, @names@, "@Effort@", chain.motor@Effort@InMsg)
+constexpr std::string_view kEndOfChain = R"py(            self.parts |= dict.fromkeys(links, chain)
+)py";
+constexpr std::string_view kChainMotors = R"py(            if name in DRIVEN:
+                self.link(chain.motor@Effort@InMsg, "ArrayMotor@Effort@", lambda u, links=links: {
+                    "motor@Effort@": [u.get(link + ".@effort@", 0) for link in links]})
 )py";
 
 const Words kHingeWords = {{"@TABLE@", "HINGES"},
-                           {"@JOINT@", "HINGE"},
                            {"@module@", "spinningBodyNDOFStateEffector"},
                            {"@Chain@", "SpinningBodyNDOFStateEffector"},
                            {"@Body@", "SpinningBody"},
@@ -85,9 +80,8 @@ const Words kHingeWords = {{"@TABLE@", "HINGES"},
                            {"@theta@", "theta"},
                            {"@Reference@", "HingedRigidBody"},
                            {"@Effort@", "Torque"},
-                           {"@names@", "links"}};
+                           {"@effort@", "torque"}};
 const Words kSlideWords = {{"@TABLE@", "SLIDES"},
-                           {"@JOINT@", "SLIDE"},
                            {"@module@", "linearTranslationNDOFStateEffector"},
                            {"@Chain@", "LinearTranslationNDOFStateEffector"},
                            {"@Body@", "TranslatingBody"},
@@ -96,7 +90,7 @@ const Words kSlideWords = {{"@TABLE@", "SLIDES"},
                            {"@theta@", "rho"},
                            {"@Reference@", "LinearTranslationRigidBody"},
                            {"@Effort@", "Force"},
-                           {"@names@", "links"}};
+                           {"@effort@", "force"}};
 
 constexpr std::string_view kTanks = R"py(        for name, keys in TANKS.items():
             self.add_tank(name, **keys)
@@ -115,7 +109,8 @@ constexpr std::string_view kAddTank = R"py(
         tank.setR_TB_B(r_TB_B)
         tank.setNameOfMassState(name + ".mass")
         self.kept.append(solid)
-        self.add(tank, [name])
+        self.holds.append(lambda now: tank.setFuelLeakRate(self.acting.get(name + ".flow", 0)))
+        self.parts[name] = tank
 )py";
 
 constexpr std::string_view kParticles = R"py(        for name, keys in PARTICLES.items():
@@ -137,16 +132,26 @@ constexpr std::string_view kAddSlosh = R"py(
             self.states |= {position: (position, 0), rate: (rate, 0)}
         if name in TANK_OF:
             self.parts[TANK_OF[name]].pushFuelSloshParticle(slosh)
-        self.add(slosh, [name])
+        self.parts[name] = slosh
 )py";
 
 constexpr std::string_view kLoads = R"py(        for name, place in LOADS.items():
-            load = self.parts[name] = extForceTorque.ExtForceTorque()
-            if place["on"]:
-                self.parts[place["on"][0]].addDynamicEffector(load, place["on"][1])
-            else:
-                self.body.addDynamicEffector(load)
-            self.modules.append(load)
+            self.add_load(name, **place)
+)py";
+constexpr std::string_view kAddLoad = R"py(
+    def add_load(self, name, on, at):
+        load = self.parts[name] = extForceTorque.ExtForceTorque()
+        self.modules.append(load)
+        if on:
+            self.parts[on[0]].addDynamicEffector(load, on[1])
+        else:
+            self.body.addDynamicEffector(load)
+
+        def hold(now):
+            force, torque = (self.acting.get(name + kind, [0, 0, 0]) for kind in (".force", ".torque"))
+            load.extForce_B = force
+            load.extTorquePntB_B = np.add(torque, np.cross(at, force))
+        self.holds.append(hold)
 )py";
 
 constexpr std::string_view kGravity = R"py(        planet = gravityEffector.GravBodyData()
@@ -163,27 +168,6 @@ constexpr std::string_view kGradient =
         self.modules.append(gradient)
 )py";
 
-constexpr std::string_view kEndOfInit = R"py(        self.modules.append(self.body)
-)py";
-
-constexpr std::string_view kHold = R"py(
-    def UpdateState(self, now):
-        super().UpdateState(now)
-)py";
-constexpr std::string_view kHoldLoads = R"py(        for name, place in LOADS.items():
-            force, torque = self.acting.get(name + ".force", [0, 0, 0]), self.acting.get(name + ".torque", [0, 0, 0])
-            self.parts[name].extForce_B = force
-            self.parts[name].extTorquePntB_B = np.add(torque, np.cross(place["at"], force))
-)py";
-constexpr std::string_view kHoldTanks = R"py(        for name in TANKS:
-            self.parts[name].setFuelLeakRate(self.acting.get(name + ".flow", 0))
-)py";
-constexpr std::string_view kEnd = R"py(
-    def whole(self):
-        seen = self.seen.read()
-        return [*seen.r_CN_N, *seen.v_CN_N], self.body.scMassOutMsg.read().massSC
-)py";
-
 }  // namespace
 
 std::string bsm_code(const BsmTables& has) {
@@ -191,7 +175,6 @@ std::string bsm_code(const BsmTables& has) {
   const auto add = [&code](bool wanted, std::string_view text, const Words& words = {}) {
     if (wanted) code += with(text, words);
   };
-  const bool has_motors = has.wheels || has.hinges || has.slides;
   const bool has_slosh = has.particles || has.pendulums;
   // Of a point mass the state is that of its centre of mass, and it does not turn.
   add(true, kBegin,
@@ -199,28 +182,25 @@ std::string bsm_code(const BsmTables& has) {
        {"@turning@", has.is_point ? "" : kTurning}});
   add(has.is_point, kPoint);
   add(has.wheels, kWheels);
+  add(has.wheel_motors, kWheelMotors);
   for (const bool turns : {true, false}) {
     if (!(turns ? has.hinges : has.slides)) continue;
     const Words& words = turns ? kHingeWords : kSlideWords;
     add(true, kChains, words);
-    add(turns ? has.hinge_rests : has.slide_rests, kRests, words);
+    add(has.rests, kRests, words);
     add(true, kEndOfChain, words);
+    add(has.chain_motors, kChainMotors, words);
   }
   add(has.tanks, kTanks);
   add(has.particles, kParticles);
   add(has.pendulums, kPendulums);
+  add(has.wheels || has.hinges || has.slides || has_slosh || has.tanks, kAddAll);
   add(has.loads, kLoads);
   add(has.gravity != GravityLaw::kNone, kGravity);
   add(has.gravity == GravityLaw::kBodyGradient, kGradient);
-  add(true, kEndOfInit);
-  add(has_motors || has_slosh || has.tanks, kAdd);
-  add(has_motors, kLinkMotors);
   add(has.tanks, kAddTank);
   add(has_slosh, kAddSlosh);
-  add(has.loads || has.tanks, kHold);
-  add(has.loads, kHoldLoads);
-  add(has.tanks, kHoldTanks);
-  add(true, kEnd);
+  add(has.loads, kAddLoad);
   return code;
 }
 

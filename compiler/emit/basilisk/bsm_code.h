@@ -1,4 +1,4 @@
-// The Python of the BSM half: a class that makes effectors of the script's tables. Only what a
+// The Python of the BSM half: methods that make effectors of the script's tables. Only what a
 // vehicle has is in it.
 #pragma once
 
@@ -11,7 +11,8 @@ namespace twincraft {
 /// Which tables the script has.
 struct BsmTables {
   bool is_point = false;
-  bool wheels = false, hinges = false, hinge_rests = false, slides = false, slide_rests = false;
+  bool wheels = false, wheel_motors = false;
+  bool hinges = false, slides = false, rests = false, chain_motors = false;
   bool tanks = false, particles = false, pendulums = false, loads = false;
   GravityLaw gravity = GravityLaw::kNone;
 };

@@ -41,9 +41,19 @@ class BsmHalf {
   Half half();
 
  private:
-  const Link& link(int index) const { return model_.assembly.links[static_cast<std::size_t>(index)]; }
+  const Link& link(int index) const {
+    return model_.assembly.links[static_cast<std::size_t>(index)];
+  }
   const std::vector<int>& children(int index) const {
     return children_[static_cast<std::size_t>(index)];
+  }
+  bool has_motor(const Chain& chain) const {
+    return std::ranges::any_of(chain.links,
+                               [this](int i) { return !link(i).joint.effort.is_zero(); }) ||
+           (chain.wheel && !rotor(*chain.wheel).torque.is_zero());
+  }
+  const Rotor& rotor(int index) const {
+    return model_.assembly.rotors[static_cast<std::size_t>(index)];
   }
   Coordinate::Kind kind(int index) const { return kinds_[static_cast<std::size_t>(index)]; }
   bool is_slosh(int index) const {
@@ -56,9 +66,9 @@ class BsmHalf {
     half_.notes.push_back({component, std::move(what)});
   }
   void use(const char* module) { half_.simulation.insert(module); }
-  /// A table of the script under a comment that says what is in it.
+  /// A table of the script, and a comment that says what is in it.
   void table(std::string_view comment, std::string_view name, const Json& value) {
-    half_.tables += wrapped(comment, "# ", "# ") + assignment(name, value);
+    half_.tables += assignment(name, value, comment);
   }
 
   void find_branches();
@@ -74,6 +84,7 @@ class BsmHalf {
   void write_wheels();
   void write_chains(JointKind kind);
   Json segments_of(const Chain& chain) const;
+  void write_motors();
   void write_tanks();
   void write_particles();
   void write_pendulums();
@@ -90,6 +101,7 @@ class BsmHalf {
   std::vector<Coordinate::Kind> kinds_;
   std::vector<Chain> chains_;
   std::vector<int> particles_, pendulums_;  // links; of a pendulum the first
+  Json rests_ = Json::object();
   Half half_;
 };
 
@@ -128,7 +140,8 @@ void BsmHalf::follow(int first) {
   for (int at = first;;) {
     chain.links.push_back(at);
     std::vector<int> next;
-    std::ranges::copy_if(children(at), std::back_inserter(next), [this](int i) { return !is_slosh(i); });
+    std::ranges::copy_if(children(at), std::back_inserter(next),
+                         [this](int i) { return !is_slosh(i); });
     if (next.size() > 1) {
       std::vector<std::string> names;
       for (const int each : next) names.push_back(link(each).name);
@@ -147,9 +160,7 @@ void BsmHalf::follow(int first) {
     }
     at = next.front();
   }
-  const bool has_motor = std::ranges::any_of(
-      chain.links, [this](int i) { return !link(i).joint.effort.is_zero(); });
-  if (has_motor && chain.links.size() > kMotors)
+  if (has_motor(chain) && chain.links.size() > kMotors)
     refuse(chain.name, fmt::format("its chain has a motor and {} joints, and Basilisk's message "
                                    "for motors holds {}",
                                    chain.links.size(), kMotors));
@@ -209,8 +220,9 @@ void BsmHalf::check_pendulums() {
     const double theta = model_.initial.joint_position[static_cast<std::size_t>(second - 1)];
     if (std::abs(theta) > kPendulumChart)
       refuse(name, "its second angle is beyond 45 deg, where Basilisk's pendulum changes its axes");
-    note(name, "beyond 45 deg of its second angle Basilisk's pendulum changes its axes, and the "
-               "angles written are those about the new ones");
+    note(name,
+         "beyond 45 deg of its second angle Basilisk's pendulum changes its axes, and the "
+         "angles written are those about the new ones");
   }
 }
 
@@ -227,11 +239,13 @@ void BsmHalf::check_gravity() {
   for (const Link& each : model_.assembly.links) elements += each.elements.size();
   const GravityLaw law = model_.gravity.bsm;
   if (law == GravityLaw::kBodyGradient && (model_.assembly.links.size() > 1 || elements > 1))
-    refuse("", "its parts feel the gradient of gravity each by itself (`body_gradient`), and "
-               "Basilisk knows that of one rigid body");
+    refuse("",
+           "its parts feel the gradient of gravity each by itself (`body_gradient`), and "
+           "Basilisk knows that of one rigid body");
   if (law == GravityLaw::kBodyCom && elements > 1)
-    note("", "gravity pulls at the centre of mass (`system_com`) in Basilisk, and at every part "
-             "in the spec (`body_com`): a long vehicle turns by degrees in an orbit");
+    note("",
+         "gravity pulls at the centre of mass (`system_com`) in Basilisk, and at every part "
+         "in the spec (`body_com`): a long vehicle turns by degrees in an orbit");
 }
 
 // What it is written as --------------------------------------------------------------------------
@@ -240,22 +254,19 @@ void BsmHalf::write_hub() {
   const MassProperties hub = hub_of(model_);
   // A point mass is flown at its centre of mass.
   const bool is_point = model_.simulation.translation;
-  table("The hub with what is fixed on it [kg, m, kg m2].", "HUB",
-        {{"mHub", hub.mass},
-         {"r_BcB_B", vector_json(is_point ? Vector3d::Zero().eval() : hub.r_CL_L)},
-         {"IHubPntBc_B", matrix_json(hub.I_PntC_L)}});
-  if (is_point) table("Its centre of mass, from B [m].", "CENTER", vector_json(hub.r_CL_L));
+  table("with what is fixed on it: mass, centre, inertia about it [kg, m, kg m2]", "HUB",
+        {hub.mass, vector_json(is_point ? Vector3d::Zero().eval() : hub.r_CL_L),
+         matrix_json(hub.I_PntC_L)});
+  if (is_point) table("of mass of the hub, from B [m]", "CENTER", vector_json(hub.r_CL_L));
 }
 
 void BsmHalf::write_wheels() {
   Json wheels = Json::object();
   for (const Rotor& rotor : model_.assembly.rotors)
-    if (rotor.link == 0)
-      wheels[rotor.name] = {{"gsHat_B", vector_json(rotor.axis_L)}, {"Js", rotor.spin_inertia}};
+    if (rotor.link == 0) wheels[rotor.name] = {vector_json(rotor.axis_L), rotor.spin_inertia};
   if (wheels.empty()) return;
   use("reactionWheelStateEffector");
-  table("Wheels on the hub, which has their mass: spin axis, spin inertia [kg m2].", "WHEELS",
-        wheels);
+  table("gsHat_B, Js [kg m2]", "WHEELS", wheels);
 }
 
 Json BsmHalf::segments_of(const Chain& chain) const {
@@ -274,23 +285,22 @@ Json BsmHalf::segments_of(const Chain& chain) const {
       body.I_PntC_L -= tensor;
     }
     const Matrix3d dcm_L0P = joint.dcm_PL0.transpose();
-    segments[link(index).name] =
-        turns ? Json{{"Mass", body.mass},
-                     {"R_SP_P", vector_json(joint.r_HP_P)},
-                     {"DCM_S0P", matrix_json(dcm_L0P)},
-                     {"SHat_S", vector_json(joint.axis_L)},
-                     {"R_ScS_S", vector_json(body.r_CL_L)},
-                     {"ISPntSc_S", matrix_json(body.I_PntC_L)},
-                     {"K", joint.stiffness},
-                     {"C", joint.damping}}
-              : Json{{"Mass", body.mass},
-                     {"R_F0P_P", vector_json(joint.r_HP_P)},
-                     {"DCM_FP", matrix_json(dcm_L0P)},
-                     {"FHat_P", vector_json(joint.dcm_PL0 * joint.axis_L)},
-                     {"R_FcF_F", vector_json(body.r_CL_L)},
-                     {"IPntFc_F", matrix_json(body.I_PntC_L)},
-                     {"K", joint.stiffness},
-                     {"C", joint.damping}};
+    segments[link(index).name] = turns ? Json{{"Mass", body.mass},
+                                              {"R_SP_P", vector_json(joint.r_HP_P)},
+                                              {"DCM_S0P", matrix_json(dcm_L0P)},
+                                              {"SHat_S", vector_json(joint.axis_L)},
+                                              {"R_ScS_S", vector_json(body.r_CL_L)},
+                                              {"ISPntSc_S", matrix_json(body.I_PntC_L)},
+                                              {"K", joint.stiffness},
+                                              {"C", joint.damping}}
+                                       : Json{{"Mass", body.mass},
+                                              {"R_F0P_P", vector_json(joint.r_HP_P)},
+                                              {"DCM_FP", matrix_json(dcm_L0P)},
+                                              {"FHat_P", vector_json(joint.dcm_PL0 * joint.axis_L)},
+                                              {"R_FcF_F", vector_json(body.r_CL_L)},
+                                              {"IPntFc_F", matrix_json(body.I_PntC_L)},
+                                              {"K", joint.stiffness},
+                                              {"C", joint.damping}};
     if (!has_wheel) continue;
     const Rotor& rotor = model_.assembly.rotors[static_cast<std::size_t>(*chain.wheel)];
     const Matrix3d along = rotor.axis_L * rotor.axis_L.transpose();
@@ -298,8 +308,7 @@ Json BsmHalf::segments_of(const Chain& chain) const {
         {"Mass", kTokenMass},
         {"R_SP_P", vector_json(body.r_CL_L)},
         {"SHat_S", vector_json(rotor.axis_L)},
-        {"ISPntSc_S",
-         matrix_json(0.5 * rotor.spin_inertia * (Matrix3d::Identity() + along))}};
+        {"ISPntSc_S", matrix_json(0.5 * rotor.spin_inertia * (Matrix3d::Identity() + along))}};
   }
   return segments;
 }
@@ -316,14 +325,21 @@ void BsmHalf::write_chains(JointKind kind) {
   if (chains.empty()) return;
   const bool turns = kind == JointKind::kHinge;
   use(turns ? "spinningBodyNDOFStateEffector" : "linearTranslationNDOFStateEffector");
-  table(turns ? "Chains of hinges on the hub, from it out, as the setters of a SpinningBody have "
-                "it [kg, m, kg m2, N m/rad, N m s/rad]."
-              : "Chains of slides on the hub, from it out, as the setters of a TranslatingBody have "
-                "it [kg, m, kg m2, N/m, N s/m].",
-        turns ? "HINGES" : "SLIDES", chains);
-  if (!rests.empty())
-    table(turns ? "Where springs of hinges rest [rad]." : "Where springs of slides rest [m].",
-          turns ? "HINGE_RESTS" : "SLIDE_RESTS", rests);
+  table(
+      turns
+          ? "chains from the hub out, by SpinningBody's setters [kg, m, kg m2, N m/rad, N m s/rad]"
+          : "chains from the hub out, by TranslatingBody's setters [kg, m, kg m2, N/m, N s/m]",
+      turns ? "HINGES" : "SLIDES", chains);
+  rests_.update(rests);
+}
+
+/// Where springs rest, and which chains have motors: Basilisk's message holds no more than 36.
+void BsmHalf::write_motors() {
+  Json driven = Json::array();
+  for (const Chain& chain : chains_)
+    if (has_motor(chain)) driven.push_back(chain.name);
+  if (!rests_.empty()) table("of springs [rad, m]", "RESTS", rests_);
+  if (!driven.empty()) table("chains with motors", "DRIVEN", driven);
 }
 
 /// A solid cylinder with the inertia per mass of `k` [m^2], which is round about an axis; without a
@@ -358,8 +374,7 @@ void BsmHalf::write_tanks() {
     tank = {{"mass", bulk.mass}, {"r_TB_B", vector_json(bulk.r_EL_L)}};
     tank.update(solid_of(bulk.I_PntE_L / bulk.mass));
   }
-  table("What does not slosh of each tank: mass [kg], centre [m], radius of the sphere or radius "
-        "and length of the cylinder [m], whose axis is the third row of dcm_TB.",
+  table("what does not slosh: spheres, and cylinders about the third row of dcm_TB [kg, m]",
         "TANKS", tanks);
 }
 
@@ -370,14 +385,13 @@ void BsmHalf::write_particles() {
   for (const int index : particles_) {
     const Joint& joint = link(index).joint;
     const MassElement& element = link(index).elements.front();
-    all[link(index).name] = {
-        {"massInit", element.mass},
-        {"r_PB_B", vector_json(joint.r_HP_P + joint.dcm_PL0 * element.r_EL_L)},
-        {"pHat_B", vector_json(joint.dcm_PL0 * joint.axis_L)},
-        {"k", joint.stiffness},
-        {"c", joint.damping}};
+    all[link(index).name] = {{"massInit", element.mass},
+                             {"r_PB_B", vector_json(joint.r_HP_P + joint.dcm_PL0 * element.r_EL_L)},
+                             {"pHat_B", vector_json(joint.dcm_PL0 * joint.axis_L)},
+                             {"k", joint.stiffness},
+                             {"c", joint.damping}};
   }
-  table("Particles on a spring [kg, m, N/m, N s/m].", "PARTICLES", all);
+  table("on springs [kg, m, N/m, N s/m]", "PARTICLES", all);
 }
 
 void BsmHalf::write_pendulums() {
@@ -397,14 +411,15 @@ void BsmHalf::write_pendulums() {
                                            {"pHat_03", vector_json(phi.dcm_PL0.col(2))},
                                            {"D", matrix_json(drag * Matrix3d::Identity())}};
   }
-  table("Spherical pendulums: pivot, rest, reference and normal [kg, m, N s/m].", "PENDULUMS", all);
+  table("pivot d; rest, reference and normal pHat [kg, m, N s/m]", "PENDULUMS", all);
 }
 
 /// Which chain a load is on and where in it, counted from 1 as Basilisk does.
 Json BsmHalf::place_of(const Load& load) const {
   for (const Chain& chain : chains_) {
     const auto found = std::ranges::find(chain.links, load.link);
-    if (found != chain.links.end()) return {chain.name, found - chain.links.begin() + 1};
+    if (found != chain.links.end())
+      return {link(chain.links.front()).name, found - chain.links.begin() + 1};
   }
   return Json::array();
 }
@@ -415,7 +430,7 @@ void BsmHalf::write_slosh_tanks() {
     for (const MassElement& element : link(i).elements)
       if (element.tank >= 0) tanks[component_of(link(i).name)] = tank_name(element.tank);
   if (!particles_.empty() || !pendulums_.empty())
-    table("The tank that each of them drains with.", "TANK_OF", tanks);
+    table("what sloshes: the tank it drains with", "TANK_OF", tanks);
 }
 
 void BsmHalf::write_loads() {
@@ -426,8 +441,7 @@ void BsmHalf::write_loads() {
   for (const Load& load : model_.loads)
     loads[load.name] = {{"on", place_of(load)},
                         {"at", vector_json(load.r_FL_L.value_or(hub.r_CL_L))}};
-  table("Loads and thrusters: the chain and its body that they are on, or the hub; where [m]. "
-        "Forces and torques are in the axes of what they are on.",
+  table("loads and thrusters: body of a chain (none: hub), in whose axes they act, and where [m]",
         "LOADS", loads);
 }
 
@@ -450,6 +464,7 @@ Half BsmHalf::half() {
   write_wheels();
   write_chains(JointKind::kHinge);
   write_chains(JointKind::kSlide);
+  write_motors();
   write_tanks();
   write_particles();
   write_pendulums();
@@ -459,12 +474,16 @@ Half BsmHalf::half() {
   const auto has = [this](std::string_view table) {
     return half_.tables.find(fmt::format("\n{} = ", table)) != std::string::npos;
   };
+  const bool wheel_motors = std::ranges::any_of(model_.assembly.rotors, [](const Rotor& rotor) {
+    return rotor.link == 0 && !rotor.torque.is_zero();
+  });
   half_.code = bsm_code({.is_point = model_.simulation.translation,
                          .wheels = has("WHEELS"),
+                         .wheel_motors = wheel_motors,
                          .hinges = has("HINGES"),
-                         .hinge_rests = has("HINGE_RESTS"),
                          .slides = has("SLIDES"),
-                         .slide_rests = has("SLIDE_RESTS"),
+                         .rests = has("RESTS"),
+                         .chain_motors = has("DRIVEN"),
                          .tanks = has("TANKS"),
                          .particles = has("PARTICLES"),
                          .pendulums = has("PENDULUMS"),

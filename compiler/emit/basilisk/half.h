@@ -15,13 +15,16 @@ struct Half {
   std::vector<Remark> notes;         // what it writes otherwise than the spec says it
   std::set<std::string> simulation;  // what it imports of Basilisk.simulation
   std::string tables;                // its data, at the top of the script
-  std::string code;                  // its class
+  std::string models;                // what stands before the class of the vehicle
+  std::string code;                  // its methods
 };
 
 /// State effectors on a Spacecraft, solved by back-substitution.
 Half bsm_half(const Model& model);
 /// Bodies of an MJScene, solved by MuJoCo.
 Half mjscene_half(const Model& model);
+
+bool is_adaptive(Method method);
 
 /// What is fixed on the hub, tanks apart.
 MassProperties hub_of(const Model& model);

@@ -10,12 +10,18 @@ namespace twincraft {
 /// Which tables the script has.
 struct MjSceneTables {
   bool is_point = false;
-  bool joints = false, sites = false, at_com = false, flows = false, jets = false;
+  bool joints = false, motors = false, sites = false, at_com = false, flows = false, jets = false;
   bool gyration = false;
   GravityLaw gravity = GravityLaw::kNone;
-  bool is_adaptive = false;
+
+  bool pulls_at_com() const { return gravity == GravityLaw::kSystemCom; }
+  bool needs_com() const { return at_com || pulls_at_com(); }
+  /// Something is computed in Python at every stage.
+  bool follows() const { return needs_com() || jets || gyration; }
 };
 
+/// What stands before the class of the vehicle, and the methods in it.
+std::string mjscene_models(const MjSceneTables& has);
 std::string mjscene_code(const MjSceneTables& has);
 
 }  // namespace twincraft

@@ -30,8 +30,8 @@ std::string text(const Quaterniond& q) {
 }
 bool is_identity(const Quaterniond& q) { return q.vec().isZero(0.0); }
 
-/// MuJoCo 3 pins a site within 1e-6 m of its body's origin to the body, unless it is turned. MJScene
-/// looks for the centre of mass again and again where its own site is pinned.
+/// MuJoCo 3 pins a site within 1e-6 m of its body's origin to the body, unless it is turned.
+/// MJScene looks for the centre of mass again and again where its own site is pinned.
 bool is_pinned(const Vector3d& r) {
   constexpr double kNear = 1.0e-5;  // [m]
   return !r.isZero(0.0) && r.norm() < kNear;
@@ -57,7 +57,7 @@ class MjSceneHalf {
   int body_of(int link) const { return bodies_of_links_[static_cast<std::size_t>(link)]; }
   const Drag* drag_on(int bob) const;
   void table(std::string_view comment, std::string_view name, const Json& value) {
-    half_.tables += wrapped(comment, "# ", "# ") + assignment(name, value);
+    half_.tables += assignment(name, value, comment);
   }
 
   void find_drags();
@@ -118,14 +118,23 @@ void MjSceneHalf::element(const std::string& margin, const std::string& tag,
                           bool is_closed) {
   std::string words = "<" + tag;
   for (const auto& [key, value] : attributes) words += fmt::format(" {}=\"{}\"", key, value);
-  xml_ += filled(words + (is_closed ? "/>" : ">"), margin, margin + "  ");
+  words += is_closed ? "/>" : ">";
+  // A body begins a line; what it has follows where there is room.
+  const bool begins = tag == "body" || tag == "general";
+  const std::size_t column = xml_.size() - (xml_.rfind('\n', xml_.size() - 2) + 1);
+  if (!begins && column + words.size() <= kScriptLine) {
+    xml_.pop_back();
+    xml_ += words + "\n";
+  } else {
+    xml_ += filled(words, margin, margin + "  ");
+  }
 }
 
 void MjSceneHalf::write_inertial(int index, const std::string& margin) {
   const MujocoInertial inertial = mujoco_inertial(body(index).inertial);
   const Quaterniond& axes = inertial.principal.axes;
-  std::vector<std::pair<std::string, std::string>> attributes = {
-      {"pos", text(inertial.r_CL_L)}, {"mass", text(inertial.mass)}};
+  std::vector<std::pair<std::string, std::string>> attributes = {{"pos", text(inertial.r_CL_L)},
+                                                                 {"mass", text(inertial.mass)}};
   if (!is_identity(axes)) attributes.emplace_back("quat", text(axes));
   attributes.emplace_back("diaginertia", text(inertial.principal.moments));
   element(margin, "inertial", attributes);
@@ -147,11 +156,11 @@ void MjSceneHalf::write_body(int index, int depth) {
   if (!is_identity(body.quat)) head.emplace_back("quat", text(body.quat));
   element(margin, "body", head, false);
   const std::string inner = margin + " ";
-  if (index == 0 && !model_.simulation.translation) element(inner, "freejoint", {{"name", body.name}});
+  if (index == 0 && !model_.simulation.translation)
+    element(inner, "freejoint", {{"name", body.name}});
   if (index == 0 && model_.simulation.translation)
     for (const auto& [suffix, axis] : {std::pair{".x", "1 0 0"}, {".y", "0 1 0"}, {".z", "0 0 1"}})
-      element(inner, "joint",
-              {{"name", body.name + suffix}, {"type", "slide"}, {"axis", axis}});
+      element(inner, "joint", {{"name", body.name + suffix}, {"type", "slide"}, {"axis", axis}});
   for (const TreeJoint& joint : body.joints) {
     std::vector<std::pair<std::string, std::string>> attributes = {{"name", joint.name}};
     if (joint.kind == JointKind::kSlide) attributes.emplace_back("type", "slide");
@@ -170,13 +179,15 @@ void MjSceneHalf::write_body(int index, int depth) {
 }
 
 void MjSceneHalf::write_xml() {
-  xml_ = "<mujoco><compiler angle=\"radian\"/><option><flag constraint=\"disable\"/></option>\n";
-  xml_ += "<worldbody>\n";
+  xml_ =
+      "<mujoco><compiler angle=\"radian\"/><option><flag "
+      "constraint=\"disable\"/></option><worldbody>\n";
   write_body(0, 0);
-  xml_ += "</worldbody>\n";
+  xml_.pop_back();
+  xml_ += "</worldbody>";
   // MuJoCo takes joints that both sites share out of what an actuator between them sees and moves:
   // what is left is the velocity in the mount.
-  if (!drags_.empty()) xml_ += "<actuator>\n";
+  if (!drags_.empty()) xml_ += "\n<actuator>\n";
   for (const Drag& drag : drags_)
     for (const auto& [axis, gear] :
          {std::pair{"x", "1 0 0 0 0 0"}, {"y", "0 1 0 0 0 0"}, {"z", "0 0 1 0 0 0"}})
@@ -188,15 +199,26 @@ void MjSceneHalf::write_xml() {
                {"gainprm", "0"},
                {"biastype", "affine"},
                {"biasprm", "0 0 " + text(-drag.drag)}});
-  if (!drags_.empty()) xml_ += "</actuator>\n";
-  half_.tables += "XML = \"\"\"\n" + xml_ + "</mujoco>\"\"\"\n";
+  if (!drags_.empty()) xml_ += "</actuator>";
+  half_.tables += "XML = \"\"\"" + xml_ + "</mujoco>\"\"\"\n";
 }
 
 // What acts --------------------------------------------------------------------------------------
 
 void MjSceneHalf::write_joints() {
+  Json joints = Json::object();
+  for (const std::string& name : joints_) joints[name] = nullptr;
+  const auto add_motor = [&](const std::string& name, const char* kind, const Schedule& effort) {
+    if (effort.is_zero()) return;
+    joints[name] = name + kind;
+    has_.motors = true;
+  };
+  for (const Rotor& rotor : model_.assembly.rotors) add_motor(rotor.name, ".torque", rotor.torque);
+  for (const Link& link : model_.assembly.links)
+    add_motor(link.name, link.joint.kind == JointKind::kHinge ? ".torque" : ".force",
+              link.joint.effort);
   has_.joints = !joints_.empty();
-  if (has_.joints) table("Joints in the order of MuJoCo.", "JOINTS", joints_);
+  if (has_.joints) table("in the order of MuJoCo, with their inputs", "JOINTS", joints);
 }
 
 void MjSceneHalf::write_loads() {
@@ -212,13 +234,14 @@ void MjSceneHalf::write_loads() {
   has_.sites = !sites.empty();
   has_.at_com = !at_com.empty();
   if (has_.sites)
-    table("Loads and thrusters: the body, in whose axes they act, and where [m].", "SITES", sites);
+    table("loads and thrusters: the body, in whose axes they act, and where [m]", "SITES", sites);
   if (has_.at_com)
-    table("Those at the centre of mass of the vehicle: the body in whose axes they act.", "AT_COM",
+    table("those at the centre of mass of the vehicle: the body in whose axes they act", "AT_COM",
           at_com);
   if (has_.at_com)
-    half_.notes.push_back({"", "what acts at the centre of mass follows it by a model in Python, "
-                               "which takes 0.2 ms a step or more"});
+    half_.notes.push_back({"",
+                           "what acts at the centre of mass follows it by a model in Python, "
+                           "which takes 0.2 ms a step or more"});
 }
 
 void MjSceneHalf::write_flows() {
@@ -230,8 +253,7 @@ void MjSceneHalf::write_flows() {
     parts[each.name] = {tank.name, mujoco_inertial(each.inertial).mass / tank.content};
   }
   has_.flows = !parts.empty();
-  if (has_.flows)
-    table("What drains: the tank of a body, and its part of what the tank holds.", "PARTS", parts);
+  if (has_.flows) table("body that drains: its tank, its part of what that holds", "PARTS", parts);
 }
 
 void MjSceneHalf::write_jets() {
@@ -239,19 +261,20 @@ void MjSceneHalf::write_jets() {
   for (const Stream& stream : model_.forces.streams) {
     const Nozzle& nozzle = model_.nozzles[static_cast<std::size_t>(stream.nozzle)];
     if (nozzle.mass_flow.is_zero()) continue;
-    jets.push_back({{"nozzle", nozzle.name + ".flow"},
-                    {"part", stream.part},
-                    {"on", {body(body_of(stream.nozzle_link)).name,
-                            body(body_of(stream.element_link)).name}},
-                    {"at", {vector_json(stream.r_PL_L), vector_json(stream.r_EL_L)}},
-                    {"k", matrix_json(stream.k_L)}});
+    jets.push_back(
+        {{"nozzle", nozzle.name + ".flow"},
+         {"part", stream.part},
+         {"on", {body(body_of(stream.nozzle_link)).name, body(body_of(stream.element_link)).name}},
+         {"at", {vector_json(stream.r_PL_L), vector_json(stream.r_EL_L)}},
+         {"k", matrix_json(stream.k_L)}});
   }
   has_.jets = !jets.empty();
   if (!has_.jets) return;
-  table("Propellant on its way to a nozzle: its part of the nozzle's flow, the bodies of nozzle and "
-        "source, where on them [m], inertia per mass of the source [m2].",
-        "JETS", jets);
-  half_.notes.push_back({"", "jet damping is a model in Python, which takes 0.2 ms a step or more"});
+  table(
+      "from source to nozzle: part of the nozzle's flow, bodies, places [m], k of the source [m2]",
+      "JETS", jets);
+  half_.notes.push_back(
+      {"", "jet damping is a model in Python, which takes 0.2 ms a step or more"});
 }
 
 /// Of bodies that are not round, in the axes of the site at their centre of mass.
@@ -264,27 +287,26 @@ void MjSceneHalf::write_gyration() {
     Quaterniond axes = inertial.principal.axes;
     if (is_pinned(inertial.r_CL_L)) axes = turned().conjugate() * axes;
     const Matrix3d R = axes.toRotationMatrix();
-    all[each.name] =
-        matrix_json(R * (moments / inertial.mass).asDiagonal() * R.transpose());
+    all[each.name] = matrix_json(R * (moments / inertial.mass).asDiagonal() * R.transpose());
   }
   has_.gyration = true;
-  table("Inertia per mass of bodies that are not round [m2].", "GYRATION", all);
+  table("inertia per mass of bodies that are not round [m2]", "GYRATION", all);
 }
 
 void MjSceneHalf::check_gravity() {
   has_.gravity = model_.gravity.mujoco;
-  const bool in_python = has_.gravity == GravityLaw::kSystemCom ||
-                         has_.gravity == GravityLaw::kBodyGradient;
+  const bool in_python =
+      has_.gravity == GravityLaw::kSystemCom || has_.gravity == GravityLaw::kBodyGradient;
   if (has_.gravity == GravityLaw::kBodyGradient) write_gyration();
   if (in_python)
-    half_.notes.push_back({"", fmt::format("gravity `{}` is a model in Python, which takes 0.2 ms "
-                                           "a step or more",
-                                           has_.gravity == GravityLaw::kSystemCom
-                                               ? "system_com"
-                                               : "body_gradient")});
+    half_.notes.push_back(
+        {"", fmt::format("gravity `{}` is a model in Python, which takes 0.2 ms "
+                         "a step or more",
+                         has_.gravity == GravityLaw::kSystemCom ? "system_com" : "body_gradient")});
   if (model_.gravity.mujoco != GravityLaw::kNone)
-    half_.notes.push_back({"", "MJScene counts from the planet's centre: an attitude in orbit is "
-                               "off by 1e-4 to 1e-2 deg"});
+    half_.notes.push_back({"",
+                           "MJScene counts from the planet's centre: an attitude in orbit is "
+                           "off by 1e-4 to 1e-2 deg"});
 }
 
 Half MjSceneHalf::half() {
@@ -300,8 +322,11 @@ Half MjSceneHalf::half() {
   write_jets();
   check_gravity();
   has_.is_point = model_.simulation.translation;
-  has_.is_adaptive = model_.simulation.method == Method::kRkf45 ||
-                     model_.simulation.method == Method::kRkf78;
+  if (is_adaptive(model_.simulation.method))
+    half_.notes.push_back({"",
+                           "an adaptive method tries the whole step first, and MJScene stops "
+                           "where that is not finite: a shorter `--step` helps"});
+  half_.models = mjscene_models(has_);
   half_.code = mjscene_code(has_);
   return std::move(half_);
 }

@@ -12,8 +12,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t kLineLength = 119;
-
 std::string scalar(const Json& value) {
   if (value.is_null()) return "None";
   if (value.is_boolean()) return value.get<bool>() ? "True" : "False";
@@ -35,12 +33,12 @@ std::string one_line(const Json& value) {
 
 std::size_t column_of(const std::string& text) { return text.size() - (text.rfind('\n') + 1); }
 
-/// Appends `value` where `text` ends: on the line where it fits, else part by part on lines that are
-/// filled. @param after  how many characters its line ends with
+/// Appends `value` where `text` ends: on the line where it fits, else part by part on lines that
+/// are filled. @param after  how many characters its line ends with
 void write(const Json& value, std::size_t indent, std::size_t after, std::string& text) {
   const std::string line = one_line(value);
   if (!value.is_structured() || value.empty() ||
-      column_of(text) + line.size() + after <= kLineLength) {
+      column_of(text) + line.size() + after <= kScriptLine) {
     text += line;
     return;
   }
@@ -54,7 +52,7 @@ void write(const Json& value, std::size_t indent, std::size_t after, std::string
     const std::string lead = value.is_object() ? scalar(key) + ": " : "";
     const std::size_t tail = left == 0 ? 1 + after : 1;
     const std::size_t size = lead.size() + one_line(item).size() + tail;
-    const bool fits = column_of(text) + 1 + size <= kLineLength && !item.is_object();
+    const bool fits = column_of(text) + 1 + size <= kScriptLine;
     if (value.size() > 1) text += first || !fits ? "\n" + std::string(inner, ' ') : " ";
     text += lead;
     write(item, inner, tail, text);
@@ -84,10 +82,15 @@ std::vector<std::string> words_of(const std::string& text) {
 
 }  // namespace
 
-std::string assignment(std::string_view name, const Json& value) {
+std::string assignment(std::string_view name, const Json& value, std::string_view comment) {
   std::string text = fmt::format("{} = ", name);
   write(value, 0, 0, text);
-  return text + "\n";
+  text += '\n';
+  if (comment.empty()) return text;
+  const std::string behind = fmt::format("  # {}", comment);
+  const std::size_t end = text.find('\n');
+  if (end + behind.size() <= kScriptLine) return text.insert(end, behind);
+  return fmt::format("# {}: {}\n", name, comment) + text;
 }
 
 std::string with(std::string_view text, const Words& words) {
@@ -107,15 +110,15 @@ std::string filled(std::string_view words, std::string_view first, std::string_v
   std::string lines(first);
   bool is_start = true;
   for (const std::string& word : words_of(std::string(words))) {
-    if (!is_start && column_of(lines) + 1 + word.size() > kLineLength) {
+    if (!is_start && column_of(lines) + 1 + word.size() > kScriptLine) {
       lines += "\n";
       lines += indent;
       is_start = true;
     }
-    for (std::size_t i = 0; i < word.size(); i += kLineLength - 12) {  // a word longer than a line
+    for (std::size_t i = 0; i < word.size(); i += kScriptLine - 12) {  // a word longer than a line
       if (i > 0) lines += "\n" + std::string(indent);
       if (!is_start && i == 0) lines += ' ';
-      lines += word.substr(i, kLineLength - 12);
+      lines += word.substr(i, kScriptLine - 12);
       is_start = false;
     }
   }

@@ -10,8 +10,12 @@
 
 namespace twincraft {
 
+inline constexpr std::size_t kScriptLine = 119;  // characters
+
 /// `NAME = literal`, with its line end. @pre all numbers are finite
-std::string assignment(std::string_view name, const nlohmann::ordered_json& value);
+/// @param comment  where there is room behind the first line, else above it
+std::string assignment(std::string_view name, const nlohmann::ordered_json& value,
+                       std::string_view comment = "");
 
 /// Text for people as comment lines or inside a docstring, broken at blanks; lines after the first
 /// begin with `indent`. What a docstring or a line cannot hold is escaped.
