@@ -88,7 +88,6 @@ constexpr std::string_view kFlight = R"py(
             module.UpdateState(now)
 
     def row(self, t):
-        """A line of our CSV."""
         com, mass = self.whole(seen := self.seen.read())
         s = np.array(seen.sigma_BN)
         q = np.hstack([1 - s @ s, 2 * s]) / (1 + s @ s)
@@ -138,11 +137,12 @@ if __name__ == "__main__":
     line.add_argument("--duration", type=float, default=DURATION, help="[s]")
     line.add_argument("-o", type=pathlib.Path, default=".", metavar="DIR")
     asked = line.parse_args()
+    if not asked.step >= 1e-9 or not 0 < asked.duration < 9e9:
+        line.error("--step and --duration are in seconds, and at least a nanosecond")
     for name in HALVES if asked.engine == "both" else [asked.engine]:
-        if name in REFUSED:
-            sys.exit(f"{name}: {REFUSED[name]}")
+        vehicle = sys.exit(f"{name}: {REFUSED[name]}") if name in REFUSED else Vehicle(name)
         asked.o.mkdir(parents=True, exist_ok=True)
-        path, vehicle = asked.o / f"basilisk_{name}.csv", Vehicle(name)
+        path = asked.o / f"basilisk_{name}.csv"
         with path.with_suffix(".new").open("w") as new:
             new.writelines(",".join(map(str, row)) + "\n" for row in vehicle.fly(asked.step, asked.duration))
         path.with_suffix(".new").replace(path)
@@ -328,7 +328,12 @@ struct Script {
   Half bsm, mjscene;
 
   explicit Script(const Model& model)
-      : notes(notes_of(model)), bsm(bsm_half(model)), mjscene(mjscene_half(model)) {}
+      : notes(notes_of(model)), bsm(bsm_half(model)), mjscene(mjscene_half(model)) {
+    const bool fits = model.simulation.step >= 1.0e-9 && model.simulation.duration < 9.0e9;
+    if (fits) return;
+    for (Half* half : {&bsm, &mjscene})
+      half->refusals.push_back({"", "Basilisk counts whole nanoseconds, for 290 years"});
+  }
 };
 
 std::string docstring(const Model& model, const Script& script, const std::string& digest) {

@@ -28,13 +28,13 @@ constexpr std::string_view kWheels =
     R"py(        wheels = reactionWheelStateEffector.ReactionWheelStateEffector()
         wheels.setMaxWheelAcceleration(1e300)  # a motor gives what it is told
         wheels.setLargeTorqueThreshold(1e300)
-        wheels.nameOfReactionWheelOmegasState = "wheels"
+        wheels.nameOfReactionWheelOmegasState = "wheels.Omega"
         for row, (name, (axis, inertia)) in enumerate(WHEELS.items()):
             wheel = reactionWheelStateEffector.RWConfigPayload()
             wheel.gsHat_B, wheel.Js = axis, inertia
             wheels.addReactionWheel(wheel)
             self.parts[name] = wheels
-            self.states[name + ".rate"] = ("wheels", row)
+            self.states[name + ".rate"] = ("wheels.Omega", row)
 )py";
 constexpr std::string_view kWheelMotors =
     R"py(        self.link(wheels.rwMotorCmdInMsg, "ArrayMotorTorque",
@@ -50,21 +50,22 @@ constexpr std::string_view kAddAll =
 // Hinges and slides differ in names alone.
 constexpr std::string_view kChains = R"py(        for name, links in @TABLE@.items():
             chain = @module@.@Chain@()
-            chain.setNameOf@Theta@State(name)
-            chain.setNameOf@Theta@DotState(name + ".rate")
+            chain.setNameOf@Theta@State(name + ".@theta@")
+            chain.setNameOf@Theta@DotState(name + ".@theta@Dot")
             for row, (link, keys) in enumerate(links.items()):
                 body = @module@.@Body@()
                 for key, value in keys.items():
                     getattr(body, "set" + key)(value)
                 chain.add@Body@(body)
-                self.states |= {link + ".position": (name, row), link + ".rate": (name + ".rate", row)}
+                self.states |= {link + ".position": (name + ".@theta@", row), link + ".rate": (name + ".@theta@Dot", row)}
 )py";
 constexpr std::string_view kRests = R"py(                if link in RESTS:
                     rest = messaging.@Reference@MsgPayload(@theta@=RESTS[link])
                     self.kept.append(messaging.@Reference@Msg().write(rest))
                     chain.@body@RefInMsgs[row].subscribeTo(self.kept[-1])
 )py";
-constexpr std::string_view kEndOfChain = R"py(            self.parts |= dict.fromkeys(links, chain)
+constexpr std::string_view kEndOfChain =
+    R"py(            self.parts |= dict.fromkeys([name, *links], chain)
 )py";
 constexpr std::string_view kChainMotors = R"py(            if name in DRIVEN:
                 self.link(chain.motor@Effort@InMsg, "ArrayMotor@Effort@", lambda u, links=links: {

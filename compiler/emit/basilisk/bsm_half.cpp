@@ -418,8 +418,7 @@ void BsmHalf::write_pendulums() {
 Json BsmHalf::place_of(const Load& load) const {
   for (const Chain& chain : chains_) {
     const auto found = std::ranges::find(chain.links, load.link);
-    if (found != chain.links.end())
-      return {link(chain.links.front()).name, found - chain.links.begin() + 1};
+    if (found != chain.links.end()) return {chain.name, found - chain.links.begin() + 1};
   }
   return Json::array();
 }

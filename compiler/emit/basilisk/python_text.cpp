@@ -115,12 +115,9 @@ std::string filled(std::string_view words, std::string_view first, std::string_v
       lines += indent;
       is_start = true;
     }
-    for (std::size_t i = 0; i < word.size(); i += kScriptLine - 12) {  // a word longer than a line
-      if (i > 0) lines += "\n" + std::string(indent);
-      if (!is_start && i == 0) lines += ' ';
-      lines += word.substr(i, kScriptLine - 12);
-      is_start = false;
-    }
+    if (!is_start) lines += ' ';
+    lines += word;
+    is_start = false;
   }
   return lines + "\n";
 }
