@@ -12,6 +12,7 @@ namespace twincraft {
 namespace {
 
 using Of = MetricRow::Of;
+using Output = OutputSignal::Of;
 using Limits = AgreementTolerances;
 
 double attitude_difference(const Observation& a, const Observation& b, Coordinates) {
@@ -85,27 +86,29 @@ double largest_size(const Observation& seen, Coordinates coordinates) {
 // The tolerance of the position speaks of the system's centre of mass; B's own position has none.
 constexpr std::array kMetrics{
     MetricRow{"attitude_deg", "attitude", "deg", kDegrees, &Limits::attitude, Of::kTurningHub,
-              attitude_difference, attitude_size},
+              Output::kAttitude, attitude_difference, attitude_size},
     MetricRow{"rate_rad_s", "body rate", "rad/s", 1.0, &Limits::rate, Of::kTurningHub,
-              distance<&Observation::omega_BN_B>, length<&Observation::omega_BN_B>},
-    MetricRow{"position_m", "hub position", "m", 1.0, nullptr, Of::kHub,
+              Output::kHubRate, distance<&Observation::omega_BN_B>,
+              length<&Observation::omega_BN_B>},
+    MetricRow{"position_m", "hub position", "m", 1.0, nullptr, Of::kHub, Output::kHubPosition,
               distance<&Observation::r_BN_N>, position_size<&Observation::r_BN_N>},
     MetricRow{"velocity_m_s", "hub velocity", "m/s", 1.0, &Limits::velocity, Of::kHub,
-              distance<&Observation::v_BN_N>, length<&Observation::v_BN_N>},
+              Output::kHubVelocity, distance<&Observation::v_BN_N>, length<&Observation::v_BN_N>},
     MetricRow{"com_position_m", "system CoM", "m", 1.0, &Limits::position, Of::kHub,
-              distance<&Observation::r_CN_N>, position_size<&Observation::r_CN_N>},
+              Output::kComPosition, distance<&Observation::r_CN_N>,
+              position_size<&Observation::r_CN_N>},
     MetricRow{"joint_deg", "joint angles", "deg", kDegrees, &Limits::joint, Of::kCoordinates,
-              euclidean_difference, euclidean_size},
+              Output::kCoordinate, euclidean_difference, euclidean_size},
     MetricRow{"joint_m", "joint travel", "m", 1.0, &Limits::travel, Of::kCoordinates,
-              euclidean_difference, euclidean_size},
+              Output::kCoordinate, euclidean_difference, euclidean_size},
     MetricRow{"wheel_rate_rad_s", "wheel rate", "rad/s", 1.0, &Limits::wheel, Of::kCoordinates,
-              euclidean_difference, euclidean_size},
-    MetricRow{"slosh_m", "slosh", "m", 1.0, &Limits::slosh, Of::kCoordinates, largest_difference,
-              largest_size},
-    MetricRow{"pendulum_deg", "pendulum", "deg", kDegrees, &Limits::joint, Of::kCoordinates,
+              Output::kCoordinateRate, euclidean_difference, euclidean_size},
+    MetricRow{"slosh_m", "slosh", "m", 1.0, &Limits::slosh, Of::kCoordinates, Output::kCoordinate,
               largest_difference, largest_size},
-    MetricRow{"mass_kg", "mass", "kg", 1.0, &Limits::mass, Of::kVehicle, mass_difference,
-              mass_size},
+    MetricRow{"pendulum_deg", "pendulum", "deg", kDegrees, &Limits::joint, Of::kCoordinates,
+              Output::kCoordinate, largest_difference, largest_size},
+    MetricRow{"mass_kg", "mass", "kg", 1.0, &Limits::mass, Of::kVehicle, Output::kMass,
+              mass_difference, mass_size},
 };
 
 std::vector<Coordinate> coordinates_of(const MetricRow& row, const Model& model) {
@@ -138,6 +141,25 @@ std::vector<MetricLaw> metric_laws(const Model& model) {
     if (row.tolerance != nullptr) law.tolerance = model.agreement.*row.tolerance;
     if (applies(law, model)) laws.push_back(std::move(law));
   }
+  return laws;
+}
+
+bool MetricRow::takes(const OutputSignal& output) const {
+  return output.of == reads && (!output.coordinate || kind_of(*output.coordinate).metric == key);
+}
+
+std::vector<MetricLaw> metric_laws(const Model& model, std::span<const OutputSignal> held) {
+  std::vector<MetricLaw> laws = metric_laws(model);
+  std::erase_if(laws, [held](MetricLaw& law) {
+    law.coordinates.clear();
+    bool is_held = false;
+    for (const OutputSignal& output : held) {
+      if (!law.row->takes(output)) continue;
+      is_held = true;
+      if (output.coordinate) law.coordinates.push_back(*output.coordinate);
+    }
+    return !is_held;
+  });
   return laws;
 }
 

@@ -27,10 +27,14 @@ struct MetricRow {
   double scale;                                           // key's units per SI unit
   std::optional<double> AgreementTolerances::*tolerance;  // of the spec; null: never judged
   Of of;
+  OutputSignal::Of reads;  // what it is taken from
   /// How different two samples are [SI]; a NaN anywhere comes out as NaN.
   double (*difference)(const Observation& a, const Observation& b, Coordinates coordinates);
   /// How large the quantity itself is [SI].
   double (*size)(const Observation& seen, Coordinates coordinates);
+
+  /// The metric is taken from this output, among others.
+  bool takes(const OutputSignal& output) const;
 };
 
 /// Nothing when no metric has this key.
@@ -50,6 +54,8 @@ struct MetricLaw {
 
 /// Those that apply to a vehicle, in the order of the report.
 std::vector<MetricLaw> metric_laws(const Model& model);
+/// The same of samples that hold these outputs and no others.
+std::vector<MetricLaw> metric_laws(const Model& model, std::span<const OutputSignal> held);
 /// Those of the hub alone, which judge nothing: see compare_hubs().
 std::vector<MetricLaw> hub_laws(bool translation);
 

@@ -2,7 +2,11 @@
 
 namespace twincraft {
 
-double value_of(const OutputSignal& output, std::size_t component, const Observation& seen) {
+namespace {
+
+/// The number itself; const where `seen` is.
+template <class Seen>
+auto& number_of(const OutputSignal& output, std::size_t component, Seen& seen) {
   const auto i = static_cast<Eigen::Index>(component);
   switch (output.of) {
     case OutputSignal::Of::kHubPosition:
@@ -10,7 +14,7 @@ double value_of(const OutputSignal& output, std::size_t component, const Observa
     case OutputSignal::Of::kHubVelocity:
       return seen.v_BN_N[i];
     case OutputSignal::Of::kAttitude:
-      return i == 0 ? seen.q_BN.w() : seen.q_BN.vec()[i - 1];
+      return seen.q_BN.coeffs()[i == 0 ? 3 : i - 1];  // Eigen stores the scalar last
     case OutputSignal::Of::kHubRate:
       return seen.omega_BN_B[i];
     case OutputSignal::Of::kComPosition:
@@ -18,13 +22,24 @@ double value_of(const OutputSignal& output, std::size_t component, const Observa
     case OutputSignal::Of::kComVelocity:
       return seen.v_CN_N[i];
     case OutputSignal::Of::kCoordinate:
-      return position_of(*output.coordinate, seen);
+      return seen.joint_position[output.coordinate->entry()];
     case OutputSignal::Of::kCoordinateRate:
-      return rate_of(*output.coordinate, seen);
+      return (output.coordinate->is_wheel() ? seen.wheel_rate
+                                            : seen.joint_rate)[output.coordinate->entry()];
     case OutputSignal::Of::kMass:
       break;
   }
   return seen.mass;
+}
+
+}  // namespace
+
+double value_of(const OutputSignal& output, std::size_t component, const Observation& seen) {
+  return number_of(output, component, seen);
+}
+
+double& place_of(const OutputSignal& output, std::size_t component, Observation& seen) {
+  return number_of(output, component, seen);
 }
 
 void set_value(const OutputSignal& output, std::span<const double> numbers, VehicleState& state) {

@@ -39,6 +39,8 @@ inline double rate_of(const Coordinate& coordinate, const Observation& seen) {
 }
 /// One number of an output: the only place that knows where it is.
 double value_of(const OutputSignal& output, std::size_t component, const Observation& seen);
+/// The same, to be written; it stays where it is as long as no coordinate is added to `seen`.
+double& place_of(const OutputSignal& output, std::size_t component, Observation& seen);
 /// Let a state have these numbers of an output. An attitude need not be normalised.
 /// @pre it is one of motion_of()
 void set_value(const OutputSignal& output, std::span<const double> numbers, VehicleState& state);

@@ -55,18 +55,28 @@ std::string heading(const Model& model) {
                      depletion, depletion.empty() ? "" : "\n");
 }
 
-std::string agreement_block(const ReportedMember& member, bool colour) {
-  if (!member.result.comparison) return {};
-  std::string text = row("agreement", "maximum", "at", "tolerance");
-  for (const Metric& metric : member.result.comparison->metrics) {
-    if (!is_worth_showing(metric)) continue;
-    const auto [label, unit] = words_of(metric.key, member.bundle.model);
+std::string difference_block(std::string_view heading, std::span<const DifferenceRow> rows,
+                             bool holds, bool colour) {
+  std::size_t width = kLabelWidth;
+  for (const DifferenceRow& each : rows) width = std::max(width, indented(each.words.label).size());
+  std::string text = row(heading, "maximum", "at", "tolerance", "", width);
+  for (const auto& [metric, words] : rows) {
     const std::string tolerance =
-        metric.tolerance ? fmt::format("{:g} {}", *metric.tolerance, unit) : "-";
-    text += row(indented(label), quantity(metric.maximum, unit), fmt::format("{:.2f} s", metric.at),
-                tolerance, result_words(metric.pass(), holds_good(member.result), colour));
+        metric.tolerance ? fmt::format("{:g} {}", *metric.tolerance, words.unit) : "-";
+    text += row(indented(words.label), quantity(metric.maximum, words.unit),
+                fmt::format("{:.2f} s", metric.at), tolerance,
+                result_words(metric.pass(), holds, colour), width);
   }
   return text;
+}
+
+std::string agreement_block(const ReportedMember& member, bool colour) {
+  if (!member.result.comparison) return {};
+  std::vector<DifferenceRow> rows;
+  for (const Metric& metric : member.result.comparison->metrics)
+    if (is_worth_showing(metric))
+      rows.push_back({metric, words_of(metric.key, member.bundle.model)});
+  return difference_block("agreement", rows, holds_good(member.result), colour);
 }
 
 namespace {
