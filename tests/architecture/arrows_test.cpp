@@ -65,9 +65,9 @@ const std::map<std::string, Rooms> kArrows = {
       "runtime/study"}},
     // Where both meet: a spec flown, in process.
     {"runtime/delivery",
-     {"compiler", "compiler/diag", "compiler/files", "compiler/ir", "runtime/bsm",
-      "runtime/compare", "runtime/engine", "runtime/linear", "runtime/report",
-      "runtime/report/page", "runtime/simulate", "runtime/study"}},
+     {"compiler", "compiler/diag", "compiler/files", "compiler/ir", "compiler/syntax",
+      "compiler/units", "runtime/bsm", "runtime/compare", "runtime/engine", "runtime/linear",
+      "runtime/report", "runtime/report/page", "runtime/simulate", "runtime/study"}},
     // And what strangers see of it.
     {"runtime/api",
      {"compiler", "compiler/analysis", "compiler/diag", "compiler/ir", "compiler/units",

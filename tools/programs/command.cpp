@@ -17,11 +17,6 @@
 namespace twincraft {
 namespace {
 
-bool shows_progress(const CommonOptions& options) {
-  if (options.quiet || options.progress == "never") return false;
-  return options.progress == "always" || ::isatty(STDERR_FILENO) != 0;
-}
-
 /// A flag that stands for a `--set`.
 struct Convenience {
   const char* name;
@@ -152,6 +147,11 @@ void watch(RunOptions& run, const CommonOptions& options, ProgressBar& bar) {
   run.instructions = instructions_of(options.isa);
   if (shows_progress(options))
     run.progress = [&bar](std::string_view phase, double fraction) { bar.show(phase, fraction); };
+}
+
+bool shows_progress(const CommonOptions& options) {
+  if (options.quiet || options.progress == "never") return false;
+  return options.progress == "always" || ::isatty(STDERR_FILENO) != 0;
 }
 
 int jobs_of(const CommonOptions& options) {

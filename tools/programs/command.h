@@ -48,6 +48,7 @@ int print_diagnostics(const Diagnostics& diagnostics, const CommonOptions& optio
 /// What the flags say of every run: its instructions, and who watches it; a signal stops it, and
 /// progress goes to `bar` if it is to be seen.
 void watch(RunOptions& run, const CommonOptions& options, ProgressBar& bar);
+bool shows_progress(const CommonOptions& options);
 int jobs_of(const CommonOptions& options);
 /// Compile, and say what is wrong with the spec and its members. @return an exit code, 0 with a
 /// `result`

@@ -12,12 +12,13 @@
 #include "runtime/report/study_table.h"
 #include "tools/programs/attribute.h"
 #include "tools/programs/command.h"
+#include "tools/programs/compare.h"
 #include "tools/programs/interrupt.h"
 
 namespace twincraft {
 namespace {
 
-const std::string kAttribute = "attribute";
+const std::string kAttribute = "attribute", kCompare = "compare";
 
 struct Options : CommonOptions {
   bool netcdf = false;
@@ -46,7 +47,8 @@ void describe(CommandLine& line, Options& options) {
   line.add_version("scsim " TWINCRAFT_VERSION);
   line.set_column(28);
   line.add_footer(
-      "scsim attribute SPEC explains a disagreement; see scsim attribute --help.\n\n"
+      "scsim attribute SPEC explains a disagreement; see scsim attribute --help.\n"
+      "scsim compare A B compares trajectories or folders; see scsim compare --help.\n\n"
       "Exit: 0 done, 1 faults in the spec or a tolerance exceeded, 2 usage, 3 input/output,\n"
       "4 numerical failure, 130/143 interrupted (what was computed is written).\n\n"
       "Example: scsim models/quickstart.yaml -o out --step '10 ms' --engine both");
@@ -130,16 +132,17 @@ int compile_and_simulate(const Options& options) {
 
 /// A word before all flags that is nearly a command and no file.
 bool is_misspelt_command(const std::string& word) {
-  return !word.starts_with('-') && !nearest(word, {kAttribute}).empty() &&
+  return !word.starts_with('-') && !nearest(word, {kAttribute, kCompare}).empty() &&
          !std::filesystem::exists(word);
 }
 
 int parse_and_run(int argc, char** argv) {
   const std::string first = argc > 1 ? argv[1] : "";
   if (first == kAttribute) return attribute_command(argc - 1, argv + 1);
+  if (first == kCompare) return compare_command(argc - 1, argv + 1);
   if (is_misspelt_command(first))
     return report_usage("scsim", fmt::format("unknown command {}", in_backticks(first)),
-                        fmt::format("did you mean `{}`?", kAttribute));
+                        fmt::format("did you mean `{}`?", nearest(first, {kAttribute, kCompare})));
   CommandLine line{"Runs a spacecraft spec in both engines and says whether they agree.", "scsim"};
   Options options;
   describe(line, options);
