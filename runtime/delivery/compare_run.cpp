@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <iterator>
 #include <set>
@@ -104,19 +105,27 @@ std::string text_of(const TrajectoryDifference& pair, bool has_spec, bool colour
   return text + notes_of(pair, has_spec);
 }
 
-std::vector<JudgedFigure> figures_of(const std::vector<TrajectoryDifference>& pairs) {
+/// With a spec, a metric that is not finite is judged without a tolerance, too, and does not hold.
+std::vector<JudgedFigure> figures_of(const std::vector<TrajectoryDifference>& pairs,
+                                     bool has_spec) {
   std::vector<JudgedFigure> figures;
   for (const TrajectoryDifference& pair : pairs)
     for (const Metric& metric : pair.comparison.metrics)
-      if (metric.tolerance)
-        figures.push_back(
-            {JudgedFigure::Of::kAgreement, metric.key, {}, {}, metric.maximum, *metric.tolerance});
+      if (metric.tolerance || (has_spec && !std::isfinite(metric.maximum)))
+        figures.push_back({JudgedFigure::Of::kAgreement,
+                           metric.key,
+                           {},
+                           {},
+                           metric.maximum,
+                           metric.tolerance.value_or(0.0)});
   return figures;
 }
 
 }  // namespace
 
-Verdict CompareRun::verdict() const { return judge(figures_of(pairs_), true); }
+Verdict CompareRun::verdict() const {
+  return judge(figures_of(pairs_, spec_name_.has_value()), true);
+}
 
 int CompareRun::exit_code() const {
   if (!faults_.empty()) return kExitInputOutput;
@@ -163,7 +172,7 @@ std::vector<std::string> shared_names(const CompareRequest& request,
   const std::set<std::string> a = trajectories_in(request.a, fault_a),
                               b = trajectories_in(request.b, fault_b);
   for (const auto& [name, fault] : {std::pair(request.a, fault_a), std::pair(request.b, fault_b)})
-    if (fault) faults.push_back({name, 0, 0, "it can not be read: " + fault.message(), ""});
+    if (fault) faults.push_back({name, 0, 0, "it can not be read: " + reason_of(fault), ""});
   if (!faults.empty()) return {};
   std::vector<std::string> both;
   std::ranges::set_intersection(a, b, std::back_inserter(both));

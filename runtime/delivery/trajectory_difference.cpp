@@ -21,11 +21,6 @@ namespace fs = std::filesystem;
 constexpr double kSameTime = 1.0e-9;       // [s] how far two times that are one may be apart
 constexpr std::size_t kShownEvery = 4096;  // samples between two looks at the progress
 
-std::string in_lower_case(std::string text) {
-  if (!text.empty() && text[0] >= 'A' && text[0] <= 'Z') text[0] = static_cast<char>(text[0] + 32);
-  return text;
-}
-
 /// Empty, or why the file can not be read. A FIFO could block for ever, a device never ends.
 std::string unreadable(const std::string& path) {
   std::error_code fault;
@@ -35,7 +30,7 @@ std::string unreadable(const std::string& path) {
     return "no such file or directory" +
            (near.empty() ? std::string() : fmt::format("; did you mean {}?", in_backticks(near)));
   }
-  if (fault) return in_lower_case(fault.message());
+  if (fault) return reason_of(fault);
   if (fs::is_directory(status)) return "it is a directory";
   return fs::is_regular_file(status) ? std::string() : "it is not a regular file";
 }
@@ -53,10 +48,11 @@ class Side {
     if (error.empty()) {
       errno = 0;
       stream_.open(path_, std::ios::binary);
-      if (!stream_) error = in_lower_case(std::generic_category().message(errno));
+      if (!stream_) error = reason_of({errno, std::generic_category()});
     }
     if (error.empty()) {
-      bytes_ = static_cast<double>(fs::file_size(path_));
+      std::error_code unknown;
+      bytes_ = static_cast<double>(fs::file_size(path_, unknown));
       return reader_.read_header(faults);
     }
     faults.push_back({path_, 0, 0, "it can not be read: " + error, ""});
@@ -110,11 +106,17 @@ class Side {
     if (values.size() <= entry) values.resize(entry + 1);
   }
 
-  /// Of any length, it is an attitude; of length 0 it is none, and must not pass for one.
+  /// Of any length, it is an attitude; of length 0 it is none, and must not pass for one. Scaled by
+  /// a power of two, which rounds nothing, its products neither overflow nor vanish.
   void settle_attitude() {
     const double length = seen_.q_BN.coeffs().stableNorm();
-    if (length == 0.0 && ++file_.null_attitudes == 1) file_.first_null = seen_.time;
-    seen_.q_BN.coeffs() /= length;
+    if (std::isnormal(length)) {
+      seen_.q_BN.coeffs() *= std::ldexp(1.0, -std::ilogb(length));
+      return;
+    }
+    if (!std::isfinite(length)) return;
+    if (++file_.null_attitudes == 1) file_.first_null = seen_.time;
+    seen_.q_BN.coeffs().setConstant(std::numeric_limits<double>::quiet_NaN());
   }
 
   std::string path_;
@@ -202,6 +204,12 @@ FileFault no_common_column(const std::string& a, const std::string& b) {
 }
 
 }  // namespace
+
+std::string reason_of(const std::error_code& fault) {
+  std::string text = fault.message();
+  if (!text.empty() && text[0] >= 'A' && text[0] <= 'Z') text[0] = static_cast<char>(text[0] + 32);
+  return text;
+}
 
 std::optional<TrajectoryDifference> compare_trajectories(const std::string& a, const std::string& b,
                                                          const Model* spec,

@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "runtime/compare/agreement.h"
@@ -39,6 +40,9 @@ struct TrajectoryDifference {
 
 /// How much of the files has been read, 0 to 1.
 using CompareProgress = std::function<void(double fraction)>;
+
+/// What the system says of a file, in lower case as all our messages.
+std::string reason_of(const std::error_code& fault);
 
 /// @param spec    null: see share_columns()
 /// @param faults  gains what is wrong with the files

@@ -19,7 +19,7 @@
 namespace twincraft {
 namespace {
 
-constexpr std::size_t kChunk = 1u << 20;         // [bytes] read at a time
+constexpr std::size_t kChunk = 1u << 16;         // [bytes] read at a time
 constexpr std::size_t kLongestLine = 16u << 20;  // [bytes] 600 000 columns, or no CSV at all
 
 constexpr std::string_view kBlanks = " \t";
@@ -251,7 +251,9 @@ bool TrajectoryReader::read_cells(std::string_view line) {
     if (!read_cell(column, cell, cells.place())) return false;
   }
   if (column == columns_.size()) return true;
-  return fail(1, fmt::format("the line has {} cells, the header has {}", column, columns_.size()),
+  return fail(1,
+              fmt::format("the line has {} cell{}, the header has {}", column,
+                          column == 1 ? "" : "s", columns_.size()),
               lines_.is_ended() ? "" : "the file ends within this line: is it cut off?");
 }
 

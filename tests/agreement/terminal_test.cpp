@@ -145,6 +145,30 @@ TEST_P(Terminal, IsSafeFromTheTextOfASpec) {
   }
 }
 
+TEST(TerminalOfCompare, IsSafeFromTheTextAndNameOfATrajectory) {
+  const TemporaryFolder folder;
+  const std::string good = folder.write("good.csv", "t [s],mass [kg],x [m]\n0,1,2\n");
+  const auto expect_harmless = [&good](const std::string& file) {
+    for (const std::vector<std::string>& arguments :
+         {std::vector{file, good}, std::vector{good, file}, std::vector{file, file}}) {
+      const ProgramResult result =
+          test::run_program(TWINCRAFT_SCSIM, {"compare", arguments[0], arguments[1]});
+      EXPECT_EQ(danger_in(result.out), "");
+      EXPECT_EQ(danger_in(result.err), "");
+      EXPECT_LT(result.exit_code, 128);
+    }
+  };
+  for (const std::string& hostile : kHostile) {
+    expect_harmless(folder.write(hostile + ".csv", "t [s],mass [kg]\n0,1\n"));
+    expect_harmless(folder.path() + "/" + hostile + "_no.csv");
+    for (const std::string& text :
+         {"t [s]," + hostile + " [m]\n0,1\n", "t [s]," + hostile + ".rate\n0,1\n",
+          "t [s],mass [" + hostile + "]\n0,1\n", "t [" + hostile + "]\n0\n",
+          "t [s],mass [kg]\n0," + hostile + "\n", "t [s],x [m]," + hostile + "\n0,1,2\n"})
+      expect_harmless(folder.write("bad.csv", text));
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Of, Terminal, testing::ValuesIn(kPrograms),
                          [](const auto& instance) { return instance.param.name; });
 

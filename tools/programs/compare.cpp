@@ -26,10 +26,10 @@ void describe(CommandLine& line, Options& options) {
   describe_talk(line, options);
   line.set_column(28);
   line.add_footer(
-      "Columns are compared by name, in any order, after their units: `t [s]`, `q_BN.w [1]`,\n"
-      "`wing.1.position [deg]`; docs/outputs.md lists the names. Only times that both files have\n"
-      "(to within 1e-9 s) are compared, and nothing is interpolated. Of two folders, files of the\n"
-      "same name are compared.\n\n"
+      "Columns are matched by name, in any order and any unit: `t [s]`, `q_BN.w [1]`,\n"
+      "`wing.1.position [deg]`. docs/outputs.md lists the names. Only times that both files have,\n"
+      "equal to 1e-9 s, are compared: nothing is interpolated. In two folders, files of the same\n"
+      "name are compared.\n\n"
       "Exit: 0 agree or not judged, 1 a tolerance exceeded or faults in the spec, 2 usage,\n"
       "3 a file with faults, or nothing in common.\n\n"
       "Example: scsim compare out other/trajectory.csv --tolerances models/quickstart.yaml");
@@ -78,8 +78,9 @@ int compare_command(int argc, char** argv) {
   if (const std::optional<int> code = line.parse(argc, argv)) return *code;
   if (const std::optional<int> code = settle_paths(line, options)) return *code;
   std::optional<CompiledSpec> spec;
-  if (!options.request.file.empty())
-    if (const int code = compile_spec(options, {}, spec); code != kExitDone) return code;
+  const int code = options.request.file.empty() ? print_diagnostics({}, options)
+                                                : compile_spec(options, {}, spec);
+  if (code != kExitDone) return code;
   return compare(options, spec ? &*spec : nullptr);
 }
 
