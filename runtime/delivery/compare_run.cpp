@@ -157,7 +157,7 @@ std::string CompareRun::text(bool colour) const {
   for (const TrajectoryDifference& pair : pairs_)
     text += text_of(pair, spec_name_.has_value(), colour) + "\n";
   text += names_note(only_a_, "file", in_alone(a_)) + names_note(only_b_, "file", in_alone(b_));
-  if (!only_a_.empty() || !only_b_.empty()) text += "\n";
+  if (!only_a_.empty() || !only_b_.empty()) text += '\n';
   return text + verdict_line(colour) + "\n";
 }
 
@@ -201,10 +201,17 @@ CompareRun compare_files(const CompareRequest& request) {
     auto pair = compare_trajectories(a, b, request.spec, run.faults_, request.progress);
     if (pair) run.pairs_.push_back(*std::move(pair));
   };
-  std::error_code unknown;  // what is no folder is read as a file, which says what it is
+  std::error_code unknown;  // what does not exist is read as a file, which says so
   const bool is_folder_a = fs::is_directory(request.a, unknown),
              is_folder_b = fs::is_directory(request.b, unknown);
-  if (!is_folder_a || !is_folder_b) {
+  if (is_folder_a != is_folder_b) {
+    run.faults_.push_back({is_folder_a ? request.a : request.b, 0, 0,
+                           fmt::format("it is a folder, {} is none",
+                                       in_backticks(is_folder_a ? request.b : request.a)),
+                           "compare two files or two folders"});
+    return run;
+  }
+  if (!is_folder_a) {
     compare(request.a, request.b);
     return run;
   }

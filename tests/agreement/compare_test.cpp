@@ -143,7 +143,8 @@ TEST_F(Compare, ExitsWithThreeForFilesThatItCanNotRead) {
   expect("missing", "missing: error: it can not be read: no such file or directory\n");
   expect("b.csv",
          "b.csv: error: it can not be read: no such file or directory; did you mean `a.csv`?\n");
-  expect("deg", "deg: error: it can not be read: it is a directory\n");
+  expect("deg",
+         "deg: error: it is a folder, `a.csv` is none\n  hint: compare two files or two folders\n");
   expect("pipe", "pipe: error: it can not be read: it is not a regular file\n");
   expect("\x1b[31m.csv", "\\x1b[31m.csv:2:3: error: `one` is no number, in the column `mass`\n");
   const ProgramResult folders = compare({"deg", "."});
