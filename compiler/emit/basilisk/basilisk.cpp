@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -218,11 +219,8 @@ std::vector<Input> acting_inputs(const Model& model) {
 /// nothing does stays: a step ends there.
 std::string inputs_of_script(const Model& model) {
   const std::vector<Input> inputs = acting_inputs(model);
-  std::set<double> times = {0.0};
-  for (const Input& input : inputs)
-    for (const Schedule* schedule : input.schedules)
-      for (const Schedule::Entry& entry : schedule->entries)
-        if (entry.time > 0.0) times.insert(entry.time);
+  std::vector<double> times = input_events(model, std::numeric_limits<double>::infinity());
+  times.insert(times.begin(), 0.0);
   Json all = Json::array();
   std::vector<Json> last(inputs.size());
   for (const double time : times) {
@@ -234,7 +232,6 @@ std::string inputs_of_script(const Model& model) {
     }
     all.push_back(Json::array({time, std::move(changes)}));
   }
-  if (inputs.empty()) all = Json::array();
   return assignment("INPUTS", all, "from when on [s, N, N m, kg/s]");
 }
 
