@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "compiler/emit/assembly_json.h"
-#include "compiler/emit/basilisk/basilisk.h"
+#include "compiler/emit/basilisk.h"
 #include "compiler/emit/dot.h"
 #include "compiler/emit/mjcf.h"
 #include "compiler/emit/resolved.h"

@@ -37,6 +37,9 @@ TEST(Names, OfEnginesStandInTheirTable) {
               UnorderedElementsAre("compiler/ir/engine_kind.h", "compiler/ir/engine_kind.h",
                                    "compiler/ir/bundle.h",       // of a target
                                    "compiler/emit/mjcf.cpp",     // the root of MJCF
+                                   // halves of a script for Basilisk, and a module of it
+                                   "compiler/emit/basilisk.cpp", "compiler/emit/basilisk_half.h",
+                                   "compiler/emit/basilisk_mjscene_code.cpp",
                                    "runtime/report/json.cpp",    // the version of a library,
                                    "runtime/report/netcdf.cpp",  // the same
                                    // words of the spec language

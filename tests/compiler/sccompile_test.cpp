@@ -194,7 +194,7 @@ TEST_F(Sccompile, ExplainsACode) {
 TEST_F(Sccompile, HelpFitsOneScreenAndShowsAnExample) {
   const ProgramResult run = sccompile({"--help"});
   EXPECT_EQ(run.exit_code, 0);
-  EXPECT_LE(std::ranges::count(run.out, '\n'), 30);
+  EXPECT_LE(std::ranges::count(run.out, '\n'), 32);
   EXPECT_THAT(run.out, HasSubstr("Example: sccompile"));
 }
 

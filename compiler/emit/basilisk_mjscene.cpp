@@ -8,10 +8,10 @@
 #include <map>
 #include <optional>
 
-#include "compiler/emit/basilisk/half.h"
-#include "compiler/emit/basilisk/mjscene_code.h"
-#include "compiler/emit/basilisk/python_text.h"
+#include "compiler/emit/basilisk_half.h"
+#include "compiler/emit/basilisk_mjscene_code.h"
 #include "compiler/emit/mujoco_inertial.h"
+#include "compiler/emit/python_text.h"
 #include "compiler/ir/number.h"
 #include "compiler/ir/vector_json.h"
 
@@ -71,7 +71,9 @@ class MjSceneHalf {
   void write_loads();
   void write_flows();
   void write_jets();
-  void write_gyration();
+  bool is_merged(int index) const;
+  void write_targets();
+  void write_gradients();
   void check_gravity();
 
   const Model& model_;
@@ -80,6 +82,7 @@ class MjSceneHalf {
   std::vector<Drag> drags_;
   std::vector<std::string> joints_;  // in MuJoCo's order
   std::string xml_;
+  bool pulls_on_elements_ = false;  // gravity does
   MjSceneTables has_;
   Half half_;
 };
@@ -144,6 +147,11 @@ void MjSceneHalf::write_inertial(int index, const std::string& margin) {
             {{"name", name + "_com"}, {"pos", text(inertial.r_CL_L)}, {"quat", text(turned())}});
   else if (drag_on(index) != nullptr)
     element(margin, "site", {{"name", name + "_com"}, {"pos", text(inertial.r_CL_L)}});
+  if (pulls_on_elements_ && is_merged(index) && body(index).link >= 0)
+    for (const MassElement& each : body(index).elements)
+      element(
+          margin, "site",
+          {{"name", each.name + ".weight"}, {"pos", text(each.r_EL_L)}, {"quat", text(turned())}});
   if (std::ranges::find(drags_, index, &Drag::mount) != drags_.end())
     element(margin, "site", {{"name", name + "_origin"}});
 }
@@ -234,7 +242,7 @@ void MjSceneHalf::write_loads() {
   has_.sites = !sites.empty();
   has_.at_com = !at_com.empty();
   if (has_.sites)
-    table("loads and thrusters: the body, in whose axes they act, and where [m]", "SITES", sites);
+    table("loads and thrusters: the body, in whose axes they act, and where [m]", "PUSHES", sites);
   if (has_.at_com)
     table("those at the centre of mass of the vehicle: the body in whose axes they act", "AT_COM",
           at_com);
@@ -277,36 +285,76 @@ void MjSceneHalf::write_jets() {
       {"", "jet damping is a model in Python, which takes 0.2 ms a step or more"});
 }
 
-/// Of bodies that are not round, in the axes of the site at their centre of mass.
-void MjSceneHalf::write_gyration() {
-  Json all = Json::object();
-  for (const TreeBody& each : model_.tree.bodies) {
-    const MujocoInertial inertial = mujoco_inertial(each.inertial);
-    const Vector3d& moments = inertial.principal.moments;
-    if (moments.maxCoeff() - moments.minCoeff() <= 1.0e-14 * moments.maxCoeff()) continue;
-    Quaterniond axes = inertial.principal.axes;
-    if (is_pinned(inertial.r_CL_L)) axes = turned().conjugate() * axes;
-    const Matrix3d R = axes.toRotationMatrix();
-    all[each.name] = matrix_json(R * (moments / inertial.mass).asDiagonal() * R.transpose());
+// Gravity pulls on every element of the ledger where it is. A body of one element is a target as it
+// is, and so are the tokens at its centre of mass; of one of several every element is, by a site.
+bool MjSceneHalf::is_merged(int index) const {
+  const TreeBody& each = body(index);
+  if (each.link < 0) return is_merged(each.parent);  // a wheel's token, whose mass is an element's
+  return each.tank < 0 && each.elements.size() > 1;
+}
+
+void MjSceneHalf::write_targets() {
+  Json pulled = Json::array();
+  Json weights = Json::object();
+  for (int i = 0; i < static_cast<int>(children_.size()); ++i) {
+    if (!is_merged(i))
+      pulled.push_back(body(i).name);
+    else if (body(i).link >= 0)
+      for (const MassElement& element : body(i).elements) weights[element.name] = element.mass;
   }
-  has_.gyration = true;
-  table("inertia per mass of bodies that are not round [m2]", "GYRATION", all);
+  has_.weights = !weights.empty();
+  table("bodies that gravity pulls on", "PULLED", pulled);
+  if (has_.weights) table("and parts of others, at their sites [kg]", "WEIGHTS", weights);
+}
+
+/// Of what is not round: at which site, the mass of which body or how much [kg], and inertia per
+/// mass in the axes of the site.
+void MjSceneHalf::write_gradients() {
+  Json all = Json::object();
+  const auto add = [&all](const std::string& site, const Json& of, const PrincipalInertia& inertia,
+                          double mass, bool is_turned) {
+    const Vector3d& moments = inertia.moments;
+    if (moments.maxCoeff() - moments.minCoeff() <= 1.0e-14 * moments.maxCoeff()) return;
+    const Quaterniond axes = is_turned ? turned().conjugate() * inertia.axes : inertia.axes;
+    const Matrix3d R = axes.toRotationMatrix();
+    const Matrix3d k = R * (moments / mass).asDiagonal() * R.transpose();
+    all[site] = {of, matrix_json(k)};
+  };
+  for (int i = 0; i < static_cast<int>(children_.size()); ++i) {
+    const MujocoInertial inertial = mujoco_inertial(body(i).inertial);
+    if (!is_merged(i))
+      add(body(i).name + "_com", body(i).name, inertial.principal, inertial.mass,
+          is_pinned(inertial.r_CL_L));
+    else if (body(i).link >= 0)
+      for (const MassElement& element : body(i).elements)
+        add(element.name + ".weight", element.mass, principal_inertia(element.I_PntE_L),
+            element.mass, true);
+  }
+  has_.gradients = !all.empty();
+  if (has_.gradients)
+    table("site: a body or a mass [kg], inertia per mass there [m2]", "GRADIENTS", all);
 }
 
 void MjSceneHalf::check_gravity() {
-  has_.gravity = model_.gravity.mujoco;
   const bool in_python =
       has_.gravity == GravityLaw::kSystemCom || has_.gravity == GravityLaw::kBodyGradient;
-  if (has_.gravity == GravityLaw::kBodyGradient) write_gyration();
+  if (has_.pulls_bodies()) write_targets();
+  if (has_.gravity == GravityLaw::kBodyGradient) write_gradients();
   if (in_python)
     half_.notes.push_back(
         {"", fmt::format("gravity `{}` is a model in Python, which takes 0.2 ms "
                          "a step or more",
                          has_.gravity == GravityLaw::kSystemCom ? "system_com" : "body_gradient")});
-  if (model_.gravity.mujoco != GravityLaw::kNone)
+  const bool burns =
+      std::ranges::any_of(model_.loads, [](const Load& load) { return load.thruster.has_value(); });
+  if (has_.gravity == GravityLaw::kNone && burns)
+    half_.notes.push_back({"",
+                           "MJScene counts from the origin of N: an attitude is off by up to "
+                           "1e-4 deg once the vehicle has gained kilometres a second"});
+  if (has_.gravity != GravityLaw::kNone)
     half_.notes.push_back({"",
                            "MJScene counts from the planet's centre: an attitude in orbit is "
-                           "off by 1e-4 to 1e-2 deg"});
+                           "off by 1e-4 to 0.4 deg"});
 }
 
 Half MjSceneHalf::half() {
@@ -315,6 +363,8 @@ Half MjSceneHalf::half() {
     return std::move(half_);
   }
   find_drags();
+  has_.gravity = model_.gravity.mujoco;
+  pulls_on_elements_ = has_.pulls_bodies();
   write_xml();
   write_joints();
   write_loads();

@@ -1,6 +1,6 @@
 // What both halves of a script share: its head, what acts, the flight and the command line.
 // Tested by tests/compiler/basilisk_test.cpp, and flown by tests/basilisk.
-#include "compiler/emit/basilisk/basilisk.h"
+#include "compiler/emit/basilisk.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -12,8 +12,8 @@
 #include <string_view>
 #include <utility>
 
-#include "compiler/emit/basilisk/half.h"
-#include "compiler/emit/basilisk/python_text.h"
+#include "compiler/emit/basilisk_half.h"
+#include "compiler/emit/python_text.h"
 #include "compiler/emit/resolved.h"
 #include "compiler/ir/digest.h"
 #include "compiler/ir/inputs.h"
@@ -350,10 +350,10 @@ std::string docstring(const Model& model, const Script& script, const std::strin
   std::string remarks;
   std::swap(text, remarks);
   for (const std::string& each : sentences(script.notes)) text += wrapped(each, "- ", "  ");
-  say("bsm, not written", script.bsm.refusals);
-  say("bsm", script.bsm.notes);
-  say("mjscene, not written", script.mjscene.refusals);
-  say("mjscene", script.mjscene.notes);
+  say(fmt::format("{}, not written", kBsmHalf), script.bsm.refusals);
+  say(kBsmHalf, script.bsm.notes);
+  say(fmt::format("{}, not written", kMjSceneHalf), script.mjscene.refusals);
+  say(kMjSceneHalf, script.mjscene.notes);
   std::swap(text, remarks);
   if (!remarks.empty()) text += "\nNot as in the spec:\n" + remarks;
   return text + "\"\"\"";
@@ -378,8 +378,8 @@ std::string refused(const Half& half) {
 /// Which halves fly, and why one does not.
 std::string halves(const Script& script) {
   Json refusals = Json::object();
-  if (!script.bsm.refusals.empty()) refusals["bsm"] = refused(script.bsm);
-  if (!script.mjscene.refusals.empty()) refusals["mjscene"] = refused(script.mjscene);
+  if (!script.bsm.refusals.empty()) refusals[kBsmHalf] = refused(script.bsm);
+  if (!script.mjscene.refusals.empty()) refusals[kMjSceneHalf] = refused(script.mjscene);
   std::string text;
   if (!refusals.empty()) text += assignment("REFUSED", refusals);
   if (script.mjscene.refusals.empty()) {
@@ -422,7 +422,7 @@ std::string emit_basilisk(const Model& model, const Json& resolved) {
   // Of a point mass one half flies B, the other the centre of mass.
   replace(flight, "@r_BN_N@",
           model.simulation.translation ? "np.subtract(com[:3], CENTER)" : "seen.r_BN_N");
-  replace(flight, "@engine@", script.bsm.refusals.empty() ? "bsm" : "mjscene");
+  replace(flight, "@engine@", script.bsm.refusals.empty() ? kBsmHalf : kMjSceneHalf);
   return text + flight + std::string(kMain);
 }
 

@@ -1,4 +1,4 @@
-#include "compiler/emit/basilisk/python_text.h"
+#include "compiler/emit/python_text.h"
 
 #include <fmt/format.h>
 

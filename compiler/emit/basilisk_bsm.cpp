@@ -9,9 +9,9 @@
 #include <cmath>
 #include <optional>
 
-#include "compiler/emit/basilisk/bsm_code.h"
-#include "compiler/emit/basilisk/half.h"
-#include "compiler/emit/basilisk/python_text.h"
+#include "compiler/emit/basilisk_bsm_code.h"
+#include "compiler/emit/basilisk_half.h"
+#include "compiler/emit/python_text.h"
 #include "compiler/ir/vector_json.h"
 
 namespace twincraft {

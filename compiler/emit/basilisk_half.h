@@ -10,6 +10,10 @@
 
 namespace twincraft {
 
+// The halves, as a script's command line and its files call them.
+inline constexpr const char* kBsmHalf = "bsm";
+inline constexpr const char* kMjSceneHalf = "mjscene";
+
 struct Half {
   std::vector<Remark> refusals;      // why it is not written; none: it is
   std::vector<Remark> notes;         // what it writes otherwise than the spec says it

@@ -1,9 +1,10 @@
-// See mjscene_code.h. Tested by tests/compiler/basilisk_test.cpp, and flown by tests/basilisk.
-#include "compiler/emit/basilisk/mjscene_code.h"
+// See basilisk_mjscene_code.h. Tested by tests/compiler/basilisk_test.cpp, and flown by
+// tests/basilisk.
+#include "compiler/emit/basilisk_mjscene_code.h"
 
 #include <string_view>
 
-#include "compiler/emit/basilisk/python_text.h"
+#include "compiler/emit/python_text.h"
 
 namespace twincraft {
 namespace {
@@ -56,8 +57,8 @@ constexpr std::string_view kMotors = R"py(            if effort:
                 motor = self.parts[name] = self.body.addJointSingleActuator(name, name)
                 self.link(motor.actuatorInMsg, "SingleActuator", lambda u, effort=effort: {"input": u.get(effort, 0)})
 )py";
-constexpr std::string_view kSites = R"py(        for name, place in SITES.items():
-            self.add_site(name, **place)
+constexpr std::string_view kSites = R"py(        for name, place in PUSHES.items():
+            self.add_push(name, **place)
 )py";
 constexpr std::string_view kFlows = R"py(        for name, (tank, part) in PARTS.items():
             self.link(self.body.getBody(name).derivativeMassPropertiesInMsg, "SCMassProps",
@@ -68,10 +69,15 @@ constexpr std::string_view kNBody =
         planet.muBody = MU
         gravity = NBodyGravity.NBodyGravity()
         gravity.addGravitySource("planet", planet, True)
-        for body in bodies:
-            gravity.addGravityTarget(body.getName(), body)
+        for name in PULLED:
+            gravity.addGravityTarget(name, self.body.getBody(name))
         self.body.AddModelToDynamicsTask(gravity)
         self.kept += [planet, gravity]
+)py";
+constexpr std::string_view kNBodyParts = R"py(        for name, mass in WEIGHTS.items():
+            part = gravity.addGravityTarget(name + ".weight", self.body.getSite(name + ".weight"))
+            self.kept.append(messaging.SCMassPropsMsg().write(messaging.SCMassPropsMsgPayload(massSC=mass)))
+            part.massPropertiesInMsg.subscribeTo(self.kept[-1])
 )py";
 constexpr std::string_view kCom = R"py(        self.com = MJSystemCoM.MJSystemCoM()
         self.com.scene = self.body
@@ -88,8 +94,7 @@ constexpr std::string_view kWeights =
                         for body in bodies]
 )py";
 constexpr std::string_view kGradients =
-    R"py(        self.gradients = [(self.body.getBody(name), *self.wrench(name + ".gradient", name + "_com"), k)
-                          for name, k in GYRATION.items()]
+    R"py(        self.gradients = [(of, *self.wrench(site + ".gradient", site), k) for site, (of, k) in GRADIENTS.items()]
 )py";
 constexpr std::string_view kJets = R"py(        self.jets = []
         for i, jet in enumerate(JETS):
@@ -98,12 +103,12 @@ constexpr std::string_view kJets = R"py(        self.jets = []
             self.jets.append((jet, self.wrench(f"jet.{i}.1", f"jet.{i}.1"), self.wrench(f"jet.{i}.2", f"jet.{i}.2")))
 )py";
 
-constexpr std::string_view kAddSite = R"py(
-    def add_site(self, name, on, at):
-        self.body.getBody(on).addSite(name + ".at", at)
-        actuator = self.parts[name] = self.body.addForceTorqueActuator(name, name + ".at")
+constexpr std::string_view kAddPush = R"py(
+    def add_push(self, name, on, at):
+        actuator = self.parts[name] = self.body.addForceTorqueActuator(name, on + "_origin")
         self.link(actuator.forceInMsg, "ForceAtSite", lambda u: {"force_S": u.get(name + ".force", [0, 0, 0])})
-        self.link(actuator.torqueInMsg, "TorqueAtSite", lambda u: {"torque_S": u.get(name + ".torque", [0, 0, 0])})
+        self.link(actuator.torqueInMsg, "TorqueAtSite", lambda u: {"torque_S": np.add(
+            u.get(name + ".torque", [0, 0, 0]), np.cross(at, u.get(name + ".force", [0, 0, 0])))})
 )py";
 
 constexpr std::string_view kWrench = R"py(
@@ -137,10 +142,10 @@ constexpr std::string_view kFollowWeights = R"py(        for body, site, force, 
             self.push(force, turned(site.read(), -MU * body.getMass() / (r_CN @ r_CN)**1.5 * r_CN), now)
 )py";
 constexpr std::string_view kFollowGradients =
-    R"py(        for body, site, _, torque, k in self.gradients:
-            seen = site.read()
+    R"py(        for of, site, _, torque, k in self.gradients:
+            mass, seen = self.body.getBody(of).getMass() if isinstance(of, str) else of, site.read()
             r = turned(seen, np.array(seen.r_BN_N))
-            self.turn(torque, 3 * MU * body.getMass() / (r @ r)**2.5 * cross(r, np.dot(k, r)), now)
+            self.turn(torque, 3 * MU * mass / (r @ r)**2.5 * cross(r, np.dot(k, r)), now)
 )py";
 constexpr std::string_view kFollowJets =
     R"py(        for jet, (nozzle, out, _), (source, back, turn) in self.jets:
@@ -162,29 +167,28 @@ std::string mjscene_code(const MjSceneTables& has) {
   const auto add = [&code](bool wanted, std::string_view text, const Words& words = {}) {
     if (wanted) code += with(text, words);
   };
-  const bool pulls_bodies =
-      has.gravity == GravityLaw::kBodyCom || has.gravity == GravityLaw::kBodyGradient;
   std::string modules = "mujoco";
   if (has.needs_com()) modules = "MJSystemCoM, " + modules;
-  if (pulls_bodies) modules = "NBodyGravity, " + modules + ", pointMassGravityModel";
+  if (has.pulls_bodies()) modules = "NBodyGravity, " + modules + ", pointMassGravityModel";
   add(true, kBegin, {{"@modules@", modules}, {"@turning@", has.is_point ? "" : kTurning}});
   add(has.joints, kJoints);
   add(has.motors, kMotors);
   add(has.sites, kSites);
   add(has.flows, kFlows);
-  add(pulls_bodies, kNBody);
+  add(has.pulls_bodies(), kNBody);
+  add(has.weights, kNBodyParts);
   add(has.needs_com(), kCom);
   add(has.follows(), kFollow);
   add(has.at_com, kAtCom);
   add(has.pulls_at_com(), kWeights);
-  add(has.gyration, kGradients);
+  add(has.gradients, kGradients);
   add(has.jets, kJets);
-  add(has.sites, kAddSite);
+  add(has.sites, kAddPush);
   add(has.follows(), kWrench);
   add(has.needs_com(), kReadCom);
   add(has.at_com, kFollowAtCom);
   add(has.pulls_at_com(), kFollowWeights);
-  add(has.gyration, kFollowGradients);
+  add(has.gradients, kFollowGradients);
   add(has.jets, kFollowJets);
   return code;
 }

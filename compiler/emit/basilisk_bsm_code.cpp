@@ -1,9 +1,9 @@
-// See bsm_code.h. Tested by tests/compiler/basilisk_test.cpp, and flown by tests/basilisk.
-#include "compiler/emit/basilisk/bsm_code.h"
+// See basilisk_bsm_code.h. Tested by tests/compiler/basilisk_test.cpp, and flown by tests/basilisk.
+#include "compiler/emit/basilisk_bsm_code.h"
 
 #include <string_view>
 
-#include "compiler/emit/basilisk/python_text.h"
+#include "compiler/emit/python_text.h"
 
 namespace twincraft {
 namespace {
