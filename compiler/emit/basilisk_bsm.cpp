@@ -20,7 +20,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // Of what one of Basilisk's messages for motors holds.
-constexpr std::size_t kMotors = 36;
+constexpr int kMotors = 36;
 // A wheel at the end of a chain is a body of its own there, with this mass [kg] of its mount's.
 constexpr double kTokenMass = 1.0e-6;
 // Basilisk's pendulum takes another chart of angles there.
@@ -74,8 +74,11 @@ class BsmHalf {
   void find_branches();
   void follow(int first);
   void find_wheels();
+  void find_wheel(int index);
+  void check_motors();
   void check_slosh(int index);
   void check_tanks();
+  void check_attitude();
   void check_loads();
   void check_gravity();
   void check_pendulums();
@@ -83,6 +86,7 @@ class BsmHalf {
   void write_hub();
   void write_wheels();
   void write_chains(JointKind kind);
+  MassProperties body_of(const Chain& chain, int index) const;
   Json segments_of(const Chain& chain) const;
   void write_motors();
   void write_tanks();
@@ -160,44 +164,48 @@ void BsmHalf::follow(int first) {
     }
     at = next.front();
   }
-  if (has_motor(chain) && chain.links.size() > kMotors)
-    refuse(chain.name, fmt::format("its chain has a motor and {} joints, and Basilisk's message "
-                                   "for motors holds {}",
-                                   chain.links.size(), kMotors));
   chains_.push_back(std::move(chain));
 }
 
 void BsmHalf::find_wheels() {
-  std::size_t on_hub = 0;
-  for (int i = 0; i < static_cast<int>(model_.assembly.rotors.size()); ++i) {
-    const Rotor& rotor = model_.assembly.rotors[static_cast<std::size_t>(i)];
-    if (rotor.link == 0) {
-      ++on_hub;
-      continue;
-    }
-    const std::string& mount = link(rotor.link).name;
-    const auto chain = std::ranges::find_if(
-        chains_, [&rotor](const Chain& each) { return each.links.back() == rotor.link; });
-    if (chain == chains_.end() || !children(rotor.link).empty()) {
-      refuse(rotor.name, fmt::format("its mount `{}` carries more than the wheel, and only the "
-                                     "last body of a chain of Basilisk's can turn as a wheel",
-                                     mount));
-    } else if (chain->wheel) {
-      refuse(rotor.name, fmt::format("`{}` carries another wheel, and a chain of Basilisk's ends "
-                                     "in one",
-                                     mount));
-    } else if (link(rotor.link).joint.kind == JointKind::kSlide) {
-      refuse(rotor.name, fmt::format("its mount `{}` slides, and a chain of Basilisk's has joints "
-                                     "of one kind",
-                                     mount));
-    } else {
-      chain->wheel = i;
-      note(rotor.name, fmt::format("it is the last body of the chain `{}`, with {:g} kg of `{}`",
-                                   chain->name, kTokenMass, mount));
-    }
-  }
+  for (int i = 0; i < static_cast<int>(model_.assembly.rotors.size()); ++i)
+    if (rotor(i).link != 0) find_wheel(i);
+}
+
+/// Which chain ends in a wheel that is not on the hub.
+void BsmHalf::find_wheel(int index) {
+  const Rotor& wheel = rotor(index);
+  const std::string& mount = link(wheel.link).name;
+  const auto chain = std::ranges::find_if(
+      chains_, [&wheel](const Chain& each) { return each.links.back() == wheel.link; });
+  if (chain == chains_.end() || !children(wheel.link).empty())
+    return refuse(wheel.name, fmt::format("its mount `{}` carries more than the wheel, and only "
+                                          "the last body of a chain of Basilisk's can be a wheel",
+                                          mount));
+  if (chain->wheel)
+    return refuse(wheel.name, fmt::format("`{}` carries another wheel, and a chain of Basilisk's "
+                                          "ends in one",
+                                          mount));
+  if (link(wheel.link).joint.kind == JointKind::kSlide)
+    return refuse(wheel.name, fmt::format("its mount `{}` slides, and a chain of Basilisk's has "
+                                          "joints of one kind",
+                                          mount));
+  chain->wheel = index;
+  note(wheel.name, fmt::format("it is the last body of the chain `{}`, with {:g} kg of `{}`",
+                               chain->name, kTokenMass, mount));
+}
+
+void BsmHalf::check_motors() {
+  const auto on_hub = std::ranges::count(model_.assembly.rotors, 0, &Rotor::link);
   if (on_hub > kMotors)
     refuse("", fmt::format("{} wheels are on the hub, and Basilisk takes {}", on_hub, kMotors));
+  for (const Chain& chain : chains_) {
+    const int joints = static_cast<int>(chain.links.size()) + (chain.wheel ? 1 : 0);
+    if (has_motor(chain) && joints > kMotors)
+      refuse(chain.name, fmt::format("its chain has a motor and {} joints, and Basilisk's message "
+                                     "for motors holds {}",
+                                     joints, kMotors));
+  }
 }
 
 void BsmHalf::check_tanks() {
@@ -207,7 +215,7 @@ void BsmHalf::check_tanks() {
         refuse(element.name, fmt::format("it moves with `{}`, and Basilisk's tanks are on the hub",
                                          link(i).name));
   for (const Tank& tank : model_.tanks)
-    if (tank.momentum == LeavingMomentum::kJet)
+    if (tank.momentum == LeavingMomentum::kJet && !tank.mass_flow.is_zero())
       refuse(tank.name, "its jet takes momentum along by another law than Basilisk's");
 }
 
@@ -224,6 +232,11 @@ void BsmHalf::check_pendulums() {
          "beyond 45 deg of its second angle Basilisk's pendulum changes its axes, and the "
          "angles written are those about the new ones");
   }
+}
+
+void BsmHalf::check_attitude() {
+  if (model_.engines.attitude == AttitudeChart::kQuaternion && !model_.simulation.translation)
+    note("", "the attitude is in MRPs, and in quaternions in the analytic engine of the spec");
 }
 
 void BsmHalf::check_loads() {
@@ -269,47 +282,57 @@ void BsmHalf::write_wheels() {
   table("gsHat_B, Js [kg m2]", "WHEELS", wheels);
 }
 
+/// What Basilisk's last body gets of a wheel: a tensor that is round about its axis, so that its
+/// turning shows nowhere else.
+Matrix3d round_tensor(const Rotor& wheel) {
+  const Matrix3d along = wheel.axis_L * wheel.axis_L.transpose();
+  return 0.5 * wheel.spin_inertia * (Matrix3d::Identity() + along);
+}
+
+MassProperties BsmHalf::body_of(const Chain& chain, int index) const {
+  MassProperties body;
+  for (const MassElement& element : link(index).elements) body = body + properties_of(element);
+  if (chain.wheel && index == chain.links.back()) {
+    body.mass -= kTokenMass;
+    body.I_PntC_L -= round_tensor(rotor(*chain.wheel));
+  }
+  return body;
+}
+
+Json segment(const Joint& joint, const MassProperties& body) {
+  const Matrix3d dcm_L0P = joint.dcm_PL0.transpose();
+  if (joint.kind == JointKind::kHinge)
+    return {{"Mass", body.mass},
+            {"R_SP_P", vector_json(joint.r_HP_P)},
+            {"DCM_S0P", matrix_json(dcm_L0P)},
+            {"SHat_S", vector_json(joint.axis_L)},
+            {"R_ScS_S", vector_json(body.r_CL_L)},
+            {"ISPntSc_S", matrix_json(body.I_PntC_L)},
+            {"K", joint.stiffness},
+            {"C", joint.damping}};
+  return {{"Mass", body.mass},
+          {"R_F0P_P", vector_json(joint.r_HP_P)},
+          {"DCM_FP", matrix_json(dcm_L0P)},
+          {"FHat_P", vector_json(joint.dcm_PL0 * joint.axis_L)},
+          {"R_FcF_F", vector_json(body.r_CL_L)},
+          {"IPntFc_F", matrix_json(body.I_PntC_L)},
+          {"K", joint.stiffness},
+          {"C", joint.damping}};
+}
+
 Json BsmHalf::segments_of(const Chain& chain) const {
   Json segments = Json::object();
-  const bool turns = link(chain.links.front()).joint.kind == JointKind::kHinge;
+  MassProperties body;
   for (const int index : chain.links) {
-    const Joint& joint = link(index).joint;
-    MassProperties body;
-    for (const MassElement& element : link(index).elements) body = body + properties_of(element);
-    const bool has_wheel = chain.wheel && index == chain.links.back();
-    if (has_wheel) {
-      const Rotor& rotor = model_.assembly.rotors[static_cast<std::size_t>(*chain.wheel)];
-      const Matrix3d along = rotor.axis_L * rotor.axis_L.transpose();
-      const Matrix3d tensor = 0.5 * rotor.spin_inertia * (Matrix3d::Identity() + along);
-      body.mass -= kTokenMass;
-      body.I_PntC_L -= tensor;
-    }
-    const Matrix3d dcm_L0P = joint.dcm_PL0.transpose();
-    segments[link(index).name] = turns ? Json{{"Mass", body.mass},
-                                              {"R_SP_P", vector_json(joint.r_HP_P)},
-                                              {"DCM_S0P", matrix_json(dcm_L0P)},
-                                              {"SHat_S", vector_json(joint.axis_L)},
-                                              {"R_ScS_S", vector_json(body.r_CL_L)},
-                                              {"ISPntSc_S", matrix_json(body.I_PntC_L)},
-                                              {"K", joint.stiffness},
-                                              {"C", joint.damping}}
-                                       : Json{{"Mass", body.mass},
-                                              {"R_F0P_P", vector_json(joint.r_HP_P)},
-                                              {"DCM_FP", matrix_json(dcm_L0P)},
-                                              {"FHat_P", vector_json(joint.dcm_PL0 * joint.axis_L)},
-                                              {"R_FcF_F", vector_json(body.r_CL_L)},
-                                              {"IPntFc_F", matrix_json(body.I_PntC_L)},
-                                              {"K", joint.stiffness},
-                                              {"C", joint.damping}};
-    if (!has_wheel) continue;
-    const Rotor& rotor = model_.assembly.rotors[static_cast<std::size_t>(*chain.wheel)];
-    const Matrix3d along = rotor.axis_L * rotor.axis_L.transpose();
-    segments[rotor.name] = {
-        {"Mass", kTokenMass},
-        {"R_SP_P", vector_json(body.r_CL_L)},
-        {"SHat_S", vector_json(rotor.axis_L)},
-        {"ISPntSc_S", matrix_json(0.5 * rotor.spin_inertia * (Matrix3d::Identity() + along))}};
+    body = body_of(chain, index);
+    segments[link(index).name] = segment(link(index).joint, body);
   }
+  if (!chain.wheel) return segments;
+  const Rotor& wheel = rotor(*chain.wheel);
+  segments[wheel.name] = {{"Mass", kTokenMass},
+                          {"R_SP_P", vector_json(body.r_CL_L)},
+                          {"SHat_S", vector_json(wheel.axis_L)},
+                          {"ISPntSc_S", matrix_json(round_tensor(wheel))}};
   return segments;
 }
 
@@ -453,8 +476,10 @@ void BsmHalf::write_gravity() {
 Half BsmHalf::half() {
   find_branches();
   find_wheels();
+  check_motors();
   check_tanks();
   check_pendulums();
+  check_attitude();
   check_loads();
   check_gravity();
   if (!half_.refusals.empty()) return std::move(half_);
