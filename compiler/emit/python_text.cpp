@@ -111,7 +111,7 @@ std::string filled(std::string_view words, std::string_view first, std::string_v
   bool is_start = true;
   for (const std::string& word : words_of(std::string(words))) {
     if (!is_start && column_of(lines) + 1 + word.size() > kScriptLine) {
-      lines += "\n";
+      lines += '\n';
       lines += indent;
       is_start = true;
     }
