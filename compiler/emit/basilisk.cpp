@@ -35,7 +35,7 @@ import time
 try:
     import Basilisk
     import numpy as np
-    from Basilisk.architecture import messaging, sysModel
+    from Basilisk.architecture import bskLogging, messaging, sysModel
 )py";
 
 constexpr std::string_view kVersion =
@@ -57,9 +57,9 @@ class Vehicle(sysModel.SysModel):
         self.integrator = INTEGRATOR(self.body)
         self.body.setIntegrator(self.integrator)
 @halves@
-    def link(self, port, kind, content):
+    def link(self, port, kind, say):
         port.subscribeTo(message := getattr(messaging, kind + "Msg")())
-        self.holds.append(lambda now: message.write(getattr(messaging, kind + "MsgPayload")(**content(self.acting)), now))
+        self.holds.append(lambda now: message.write(getattr(messaging, kind + "MsgPayload")(**say(self.acting)), now))
 
     def Reset(self, now):
         for name in self.states.keys() & INITIAL.keys():
@@ -107,7 +107,7 @@ constexpr std::string_view kFlight = R"py(
         self.UpdateState(0)
         self.body.UpdateState(0)
         yield self.row(0.0)
-        grid, changes = np.arange(1, int(duration / step + 1e-9) + 1) * step, [t for t, _ in INPUTS if 0 < t < duration]
+@lands@        grid, changes = np.arange(1, duration / step + 1e-9) * step, [t for t, _ in INPUTS if 0 < t < duration]
         times = np.unique(np.rint(1e9 * np.hstack([grid, changes, duration])).astype(int))
         self.steps, self.seconds, samples = len(times), 0, 1
         for now in times.tolist():
@@ -130,6 +130,12 @@ def build(sim, task, engine="@engine@"):
 
 )py";
 
+// Basilisk's adaptive methods try a whole step first, and MJScene stops where that ends nowhere.
+constexpr std::string_view kShorter =
+    R"py(        if "q_BN" in self.states:  # in MJScene, which stops where the first trial of a step ends nowhere
+            step /= 10
+)py";
+
 constexpr std::string_view kMain = R"py(
 if __name__ == "__main__":
     line = argparse.ArgumentParser(description=__doc__.split("\n")[0])
@@ -141,12 +147,13 @@ if __name__ == "__main__":
     if not asked.step >= 1e-9 or not 0 < asked.duration < 9e9:
         line.error("--step and --duration are in seconds, and at least a nanosecond")
     for name in HALVES if asked.engine == "both" else [asked.engine]:
-        vehicle = sys.exit(f"{name}: {REFUSED[name]}") if name in REFUSED else Vehicle(name)
+        vehicle = sys.exit(f"{name}: {'; '.join(REFUSED[name])}") if name in REFUSED else Vehicle(name)
+        try:
+            lines = [",".join(map(str, row)) + "\n" for row in vehicle.fly(asked.step, asked.duration)]
+        except bskLogging.BasiliskError as error:
+            sys.exit(f"{name}: {error}; a shorter --step may help")
         asked.o.mkdir(parents=True, exist_ok=True)
-        path = asked.o / f"basilisk_{name}.csv"
-        with path.with_suffix(".new").open("w") as new:
-            new.writelines(",".join(map(str, row)) + "\n" for row in vehicle.fly(asked.step, asked.duration))
-        path.with_suffix(".new").replace(path)
+        (asked.o / f"basilisk_{name}.csv").write_text("".join(lines))
         print(f"{name}: {vehicle.steps} steps, {1e6 * vehicle.seconds / vehicle.steps:.2f} us per step")
 )py";
 
@@ -355,7 +362,8 @@ std::string docstring(const Model& model, const Script& script, const std::strin
   say(fmt::format("{}, not written", kMjSceneHalf), script.mjscene.refusals);
   say(kMjSceneHalf, script.mjscene.notes);
   std::swap(text, remarks);
-  if (!remarks.empty()) text += "\nNot as in the spec:\n" + remarks;
+  if (!remarks.empty()) return text + "\nNot as in the spec:\n" + remarks + "\"\"\"";
+  text.pop_back();
   return text + "\"\"\"";
 }
 
@@ -378,8 +386,8 @@ std::string refused(const Half& half) {
 /// Which halves fly, and why one does not.
 std::string halves(const Script& script) {
   Json refusals = Json::object();
-  if (!script.bsm.refusals.empty()) refusals[kBsmHalf] = refused(script.bsm);
-  if (!script.mjscene.refusals.empty()) refusals[kMjSceneHalf] = refused(script.mjscene);
+  if (!script.bsm.refusals.empty()) refusals[kBsmHalf] = sentences(script.bsm.refusals);
+  if (!script.mjscene.refusals.empty()) refusals[kMjSceneHalf] = sentences(script.mjscene.refusals);
   std::string text;
   if (!refusals.empty()) text += assignment("REFUSED", refusals);
   if (script.mjscene.refusals.empty()) {
@@ -422,6 +430,7 @@ std::string emit_basilisk(const Model& model, const Json& resolved) {
   // Of a point mass one half flies B, the other the centre of mass.
   replace(flight, "@r_BN_N@",
           model.simulation.translation ? "np.subtract(com[:3], CENTER)" : "seen.r_BN_N");
+  replace(flight, "@lands@", is_adaptive(model.simulation.method) ? kShorter : "");
   replace(flight, "@engine@", script.bsm.refusals.empty() ? kBsmHalf : kMjSceneHalf);
   return text + flight + std::string(kMain);
 }

@@ -372,9 +372,7 @@ Half MjSceneHalf::half() {
   check_gravity();
   has_.is_point = model_.simulation.translation;
   if (is_adaptive(model_.simulation.method))
-    half_.notes.push_back({"",
-                           "an adaptive method tries the whole step first, and MJScene stops "
-                           "where that is not finite: a shorter `--step` helps"});
+    half_.notes.push_back({"", "a step of an adaptive method is flown in tenths"});
   half_.models = mjscene_models(has_);
   half_.code = mjscene_code(has_);
   return std::move(half_);
