@@ -393,8 +393,8 @@ std::string halves(const Script& script) {
   if (script.mjscene.refusals.empty()) {
     text += refusals.empty() ? "REFUSED = {} if " : "REFUSED |= {} if ";
     text +=
-        "Basilisk.hasBuildFeature(\"mujoco\") else {\"mjscene\": \"this Basilisk has no "
-        "MuJoCo\"}\n";
+        "Basilisk.hasBuildFeature(\"mujoco\") else {\"mjscene\": [\"this Basilisk has no "
+        "MuJoCo\"]}\n";
   }
   return text + "HALVES = [name for name in (\"bsm\", \"mjscene\") if name not in REFUSED]\n";
 }
