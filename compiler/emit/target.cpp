@@ -28,7 +28,7 @@ constexpr Target kTargets[] = {
      nothing},
     {"dot", ".dot", "both halves as a Graphviz drawing",
      [](const Model& model, const Json&) { return emit_dot(model); }, fits_always, nothing},
-    {"basilisk", ".basilisk.py", "a script that flies it in Basilisk", emit_basilisk,
+    {kBasilisk, ".basilisk.py", "a script that flies it in Basilisk", emit_basilisk,
      basilisk_refusal, basilisk_remarks},
 };
 

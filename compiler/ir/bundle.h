@@ -15,6 +15,7 @@ namespace twincraft {
 inline constexpr const char* kMjcf = "mjcf";          // what the MuJoCo engine loads
 inline constexpr const char* kAssemblyJson = "bsm";   // what the analytic engine starts from
 inline constexpr const char* kResolved = "resolved";  // every default filled in, SI units
+inline constexpr const char* kBasilisk = "basilisk";  // what flies it in Basilisk
 
 /// The model as one target writes it.
 struct Emitted {

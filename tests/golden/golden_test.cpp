@@ -41,7 +41,9 @@ std::string read(const fs::path& path) {
   return text.str();
 }
 
-Bundle compiled(const fs::path& spec) { return test::compiled({spec.string(), {}}); }
+Bundle compiled(const fs::path& spec) {
+  return test::compiled({spec.string(), {}}, {kMjcf, kAssemblyJson, kResolved, kBasilisk});
+}
 
 /// The first line that differs says more than two whole files.
 std::string first_difference(const std::string& expected, const std::string& actual) {
@@ -71,6 +73,7 @@ TEST(Golden, EverySpecCompilesToItsExpectedBytes) {
     const Bundle bundle = compiled(spec);
     expect_same(bundle.model.name + ".xml", bundle.text(kMjcf));
     expect_same(bundle.model.name + ".bsm.json", bundle.text(kAssemblyJson));
+    expect_same(bundle.model.name + ".basilisk.py", bundle.text(kBasilisk));
   }
 }
 
@@ -102,6 +105,7 @@ TEST(Golden, EveryExpectedFileHasItsSpec) {
     const std::string name = compiled(spec).model.name;
     wanted.insert(name + ".xml");
     wanted.insert(name + ".bsm.json");
+    wanted.insert(name + ".basilisk.py");
   }
   for (const auto& entry : fs::directory_iterator(expected_folder())) {
     EXPECT_TRUE(wanted.contains(entry.path().filename().string()))

@@ -12,11 +12,12 @@
 namespace twincraft::test {
 
 /// @throws std::runtime_error with the diagnostics, when there are errors
-inline Bundle compiled(const CompileRequest& request) {
+inline Bundle compiled(const CompileRequest& request,
+                       const Wanted& wanted = {kMjcf, kAssemblyJson, kResolved}) {
   Diagnostics diagnostics;
   const LoadResult loaded = load_spec(request, diagnostics);
   std::optional<Bundle> bundle;
-  if (loaded.spec) bundle = loaded.spec->compile({kMjcf, kAssemblyJson, kResolved}, diagnostics);
+  if (loaded.spec) bundle = loaded.spec->compile(wanted, diagnostics);
   if (!bundle) throw std::runtime_error(loaded.io_error + to_text(diagnostics, {}));
   return *std::move(bundle);
 }
