@@ -73,7 +73,7 @@ def compare(options: argparse.Namespace, folder: pathlib.Path) -> int:
     settings = [*options.settings, *emission.ours]
     report = fly_here(options.spec, settings, 0, folder)
     found = find(emission, report, folder)
-    if not options.no_timing:
+    if not options.no_timing and not emission.facts["adaptive"]:
         timed = folder / "timed"
         timed.mkdir()
         found.costs = race(emission, options.spec, settings, options.rounds, timed)

@@ -48,14 +48,19 @@ def changes(settings: list[str]) -> list[str]:
 
 def sccompile(spec: str, settings: list[str], folder: pathlib.Path) -> tuple[pathlib.Path, list[str]]:
     """@return the script, and what the compiler remarked on it"""
-    command = [program("sccompile"), spec, "--emit", "basilisk", "-o", str(folder)]
-    command += ["--diagnostics", "json", *changes(settings)]
-    done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True)
+    command = [program("sccompile"), spec, "--emit", "basilisk,resolved", "-o", str(folder)]
+    command += changes(settings)
+    done = subprocess.run(
+        [*command, "--diagnostics", "json"], stdin=subprocess.DEVNULL, capture_output=True, text=True
+    )
     if done.returncode != 0:
-        subprocess.run([*command[:-len(changes(settings)) - 2], *changes(settings)], stdout=subprocess.DEVNULL)
+        subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL)  # as text
         raise Failed(f"`{spec}` has no script for Basilisk", done.returncode)
     (script,) = folder.glob("*.basilisk.py")
-    return script, remarks_of(done.stderr)
+    (resolved,) = folder.glob("*.resolved.yaml")
+    if re.search("^study:", resolved.read_text(), re.MULTILINE):
+        raise Failed(f"`{spec}` is a study, which is many runs; name a spec without", 1)
+    return script, remarks_of(done.stdout)
 
 
 def remarks_of(text: str) -> list[str]:
@@ -67,7 +72,7 @@ def remarks_of(text: str) -> list[str]:
 
 
 def facts_of(script: pathlib.Path) -> dict:
-    command = [sys.executable, "-B", str(HERE / "racer.py"), str(script), "1"]
+    command = [sys.executable, "-B", str(HERE / "racer.py"), str(script)]
     done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True)
     if done.returncode != 0:
         raise Failed(f"Basilisk does not load the script: {done.stderr.strip()[-2000:]}", 125)
@@ -123,8 +128,6 @@ def fly_here(spec: str, settings: list[str], trials: int, folder: pathlib.Path) 
         report = json.loads((folder / "report.json").read_text())
     except (OSError, ValueError):
         raise Failed(done.stderr.strip() or "scsim gave no report", done.returncode or 1) from None
-    if len(report["members"]) != 1:
-        raise Failed("a study is many runs: take `study` out of the spec, or --set one member", 1)
     if not report["complete"]:
         raise Failed(done.stderr.strip() or "an engine of ours stopped", done.returncode or 1)
     return report

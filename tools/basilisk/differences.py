@@ -122,7 +122,9 @@ AT_REST = {
 }  # fmt: skip
 # Rounding of the place, and of what turns with it.
 IN_MOTION = AT_REST | {ATTITUDE: 1e-8, POSITION: 1e-5, COM: 1e-5}
-# MJScene's velocities are those of the inertial frame, whose rounding turns the vehicle.
+ORBIT = 6000.0  # [s]
+# MJScene's velocities are those of the inertial frame, and their rounding acts as a torque: this much
+# in an orbit, and with the square of the time.
 SCENE_IN_MOTION = IN_MOTION | {ATTITUDE: 0.1, RATE: 1e-6, JOINT: 1e-6, TRAVEL: 1e-6, WHEEL: 1e-6}
 SCENE_PUSHED = SCENE_IN_MOTION | {POSITION: 1.0, COM: 1.0}
 # Another chart: the integrator's own error.
@@ -144,7 +146,9 @@ def bounds(half: str, ours: Trajectory, facts: dict) -> dict[Metric, float]:
     elif half == "bsm":
         found = IN_MOTION
     else:
-        found = SCENE_PUSHED if facts["is_pushed"] else SCENE_IN_MOTION
+        orbits = max(1.0, facts["duration_s"] / ORBIT)
+        found = dict(SCENE_PUSHED if facts["is_pushed"] else SCENE_IN_MOTION)
+        found |= {metric: found[metric] * orbits**2 for metric in (ATTITUDE, RATE)}
     if half == "bsm" and turned_pendulums(ours):
         found = {metric: max(bound, TURNED.get(metric, 0)) for metric, bound in found.items()}
     return found

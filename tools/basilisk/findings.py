@@ -90,7 +90,7 @@ def notes_of(found: Findings, turned: set[str]) -> list[str]:
             "angles are not compared there, and the rest is judged loosely"
         )
     if facts["adaptive"]:
-        notes.append("an adaptive method: step sequences differ, so nothing is judged")
+        notes.append("an adaptive method: step sequences differ, so nothing is judged or timed")
     if facts["drains"]:
         notes.append("v_CN_N is another quantity in Basilisk on a vehicle that drains")
     alone = max((pair.alone for pair in found.pairs.values()), default=0)
@@ -98,7 +98,7 @@ def notes_of(found: Findings, turned: set[str]) -> list[str]:
         notes.append(f"{alone} samples have no counterpart at their time and are not compared")
     if found.report["verdict"] not in ("agree", "not_judged"):
         notes.append(f"our own verdict on this run is `{found.report['verdict']}`")
-    return notes + found.emission.remarks
+    return notes + [text for text in found.emission.remarks if not text.startswith("not in ")]
 
 
 def metric_json(comparison: Comparison) -> dict:

@@ -12,41 +12,48 @@ import numpy as np
 from chain import HERE, OURS, Emission, Failed, fly_here
 
 SECONDS = 0.25  # that a timed run of Basilisk takes, about
+TRIALS = 11  # of ours in every round
 
 
 class Racer:
     """The process that has Basilisk."""
 
-    def __init__(self, script: pathlib.Path, steps: int) -> None:
-        command = [sys.executable, "-B", str(HERE / "racer.py"), str(script), str(steps)]
+    def __init__(self, script: pathlib.Path) -> None:
+        command = [sys.executable, "-B", str(HERE / "racer.py"), str(script)]
         self.process = subprocess.Popen(
             command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True
         )
-        self.process.stdout.readline()
 
     def __enter__(self) -> Racer:
+        self.process.stdout.readline()  # facts, known by now
         return self
 
-    def __exit__(self, *_) -> None:
+    def __exit__(self, kind, *_) -> None:
+        if kind is not None:
+            self.process.kill()
         self.process.stdin.close()
         self.process.stdout.close()
         self.process.wait()
 
-    def race(self, half: str) -> dict:
-        self.process.stdin.write(half + "\n")
+    def race(self, contestant: str, steps: int) -> dict:
+        self.process.stdin.write(f"{contestant} {steps}\n")
         self.process.stdin.flush()
         line = self.process.stdout.readline()
         if not line:
-            raise Failed(f"Basilisk ended while {half} was timed", 1)
+            raise Failed(f"Basilisk ended while {contestant} was timed", 1)
         return json.loads(line)
 
 
-def steps_of(emission: Emission, half: str) -> int:
+def steps_of(racer: Racer, contestants: list[str], facts: dict) -> dict[str, int]:
     """So many that starting does not show, and none beyond the run's end."""
-    whole = max(1, int(emission.facts["duration_s"] / emission.facts["step_s"] + 1e-9))
-    with Racer(emission.script, min(whole, 200)) as racer:
-        one = racer.race(half)["seconds"]
-    return max(1, min(whole, int(SECONDS / one)))
+    whole = max(1, int(facts["duration_s"] / facts["step_s"] + 1e-9))
+    found = {}
+    for each in contestants:
+        one = racer.race(each, min(whole, 100))["seconds"]
+        found[each] = max(1, min(whole, int(SECONDS / one)))
+    if "special" in found:  # they end alike, if they fly alike
+        found["special"] = found["bsm"] = min(found["special"], found["bsm"])
+    return found
 
 
 def same_motion(a: list[float], b: list[float]) -> bool:
@@ -58,26 +65,20 @@ def race(emission: Emission, spec: str, settings: list[str], rounds: int, folder
     contestants = list(emission.facts["halves"])
     if emission.facts["special_effectors"]:
         contestants.append("special")
-    steps = {half: steps_of(emission, half) for half in contestants}
-    if "special" in steps:
-        steps["special"] = steps["bsm"] = min(steps["special"], steps["bsm"])
-    racers = {half: Racer(emission.script, steps[half]) for half in contestants}
     times: dict[str, list[float]] = {name: [] for name in (*contestants, "our_bsm", "our_mujoco")}
     ends: dict[str, list[float]] = {}
-    try:
+    with Racer(emission.script) as racer:
+        steps = steps_of(racer, contestants, emission.facts)
         for _ in range(rounds):
-            for half in contestants:
-                found = racers[half].race(half)
-                times[half].append(found["seconds"])
-                ends[half] = found["end"]
-            report = fly_here(spec, settings, 3, folder)
+            for each in contestants:
+                found = racer.race(each, steps[each])
+                times[each].append(found["seconds"])
+                ends[each] = found["end"]
+            report = fly_here(spec, settings, TRIALS, folder)
             member = report["members"][0]
             for engine in OURS.values():
                 trials = member["timing"][engine]["trials_s"]
                 times[f"our_{engine}"].append(min(trials) / member["engines"][engine]["steps"])
-    finally:
-        for racer in racers.values():
-            racer.__exit__()
     if "special" in ends and not same_motion(ends["special"], ends["bsm"]):
         times.pop("special")  # another vehicle is no contestant
     return {

@@ -38,10 +38,11 @@ def reported(comparison: Comparison | None, metric: Metric) -> str:
 def agreement_lines(found: Findings) -> list[str]:
     bsm, scene = (found.pairs.get(half) for half in ("bsm", "mjscene"))
     mujoco, scene_too = (found.others.get(name) for name in ("our_mujoco", "mjscene"))
-    form = "{:<21}{:<10}{:<8}{:<10}{:<10}{:<8}{:<10}{:<12}{}"
+    form = "{:<21}{:<10}{:<8}{:<10}{:<10}{:<8}{:<10}{:<13}{}"
     lines = [
-        form.format("", "Basilisk's BSM", "", "", "MJScene", "", "", "our MuJoCo", "MJScene"),
-        form.format("agreement", "to our BSM", "", "", "to our MuJoCo", "", "", "to our BSM", "to our BSM"),
+        "                     Basilisk's BSM              MJScene                     our MuJoCo   MJScene",
+        "agreement            to our BSM                  to our MuJoCo               to our BSM   "
+        "to our BSM",
     ]
     metrics = list(found.others["our_mujoco"].history)
     for metric in metrics:
@@ -62,7 +63,7 @@ def cost_lines(found: Findings) -> list[str]:
     each = {name: cost["best"] for name, cost in costs["us_per_step"].items()}
     factors = ratios(costs, facts)
     form = "{:<21}{:<12}{:<12}{:<10}{}"
-    lines = [form.format("cost, us per step", "Basilisk", "ours", "", "")]
+    lines = [form.format("cost, us per step", "Basilisk", "ours", "", "").rstrip()]
     for title, half, ours, ratio in (
         ("BSM", "bsm", "our_bsm", "bsm_over_our_bsm"),
         ("MuJoCo", "mjscene", "our_mujoco", "mjscene_over_our_mujoco"),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 
+import basilisk
 import machine
 from cases import ALL, FLEX
 from claims import claims, exponent_of_counts, exponent_of_time, wrapper
@@ -12,7 +13,7 @@ from programs import run
 
 
 def holds(results: Results) -> bool:
-    return all(claim.holds for claim in claims(results))
+    return all(claim.holds for claim in claims(results)) and basilisk.holds(results.basilisk)
 
 
 def table(head: list[str], rows: list[list[str]]) -> str:
@@ -163,6 +164,7 @@ One spacecraft per SIMD lane, whole RK4 steps, the best of five.
 
 {evaluation_table(results)}
 
+{basilisk.section(results.basilisk)}
 ## What can be relied on
 
 The same program on a processor with the same features gives the same bytes: the engine chooses its instruction set when it starts,

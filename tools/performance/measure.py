@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 
+import basilisk
 import machine
 import programs
 from cases import ALL, FLEX, Case
@@ -23,6 +24,7 @@ class Results:
     evaluations: dict[str, dict[str, float]]  # [ns] by case and engine
     batches: dict[str, dict[str, float]]  # spacecraft-steps/s by case and instruction set
     lanes: dict[str, int]  # by instruction set
+    basilisk: dict[str, dict]  # comparison.json by case
 
 
 def steps_of(degrees_of_freedom: int) -> int:
@@ -55,7 +57,7 @@ def best_batches() -> tuple[dict[str, dict[str, float]], dict[str, int]]:
     return table, lanes
 
 
-def measure(trials: int, tell) -> Results:
+def measure(trials: int, rounds: int, tell) -> Results:
     tell("building")
     programs.build("bench_steps", "bench_evaluations")
     before = machine.load()
@@ -66,8 +68,11 @@ def measure(trials: int, tell) -> Results:
     tell("single evaluations and batches")
     evaluations = best_evaluations()
     batches, lanes = best_batches()
+    beside = basilisk.races(rounds, tell)
     after = machine.load()
     tell("counting instructions")
     counts = programs.counts([(case, engine) for case in ALL for engine in COUNTED], FEWER, MORE)
     split = shares(FLEX[16], "portable", FEWER, MORE)
-    return Results(trials, (before, after), races, counts, split, evaluations, batches, lanes)
+    return Results(
+        trials, (before, after), races, counts, split, evaluations, batches, lanes, beside
+    )

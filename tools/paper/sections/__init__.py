@@ -2,7 +2,7 @@
 section is a file here and a line below."""
 
 from sections import burn, flex, multibody, orbit, panels, torque, work_precision
-from sections import cost, truth, why
+from sections import basilisk, cost, truth, why
 
 # The order of the document; what depends on the machine that ran it comes last.
-SECTIONS = (orbit, torque, panels, multibody, burn, flex, why, work_precision, truth, cost)
+SECTIONS = (orbit, torque, panels, multibody, burn, flex, why, work_precision, truth, basilisk, cost)
