@@ -10,6 +10,7 @@ from unittest import mock
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools" / "performance"))
 
+import basilisk  # noqa: E402
 import breakdown  # noqa: E402
 import callgrind  # noqa: E402
 import claims  # noqa: E402
@@ -85,6 +86,34 @@ class Gate(unittest.TestCase):
         self.assertEqual(list(stored), [case.name for case in gate.GATED])
 
 
+class Basilisk(unittest.TestCase):
+    def row(self, factor):
+        keys = ("bsm_over_our_bsm", "mjscene_over_our_mujoco", "mjscene_over_our_bsm")
+        engines = ("bsm", "mjscene", "special", "our_bsm", "our_mujoco")
+        return {
+            "basilisk": {"version": "2.12.1", "mujoco": "3.11.0"},
+            "provenance": {"program": "scsim", "mujoco": "2.2.2", "cores": 2},
+            "cost": {
+                "rounds": 6, "load_average": 0.5, "instructions": "AVX2",
+                "us_per_step": {name: {"best": 1.0, "median": 1.0} for name in engines},
+                "ratios": {key: factor for key in keys},
+                "bsm_fastest_us_per_step": 1.0, "bsm_hinges": "HingedRigidBody",
+            },
+        }  # fmt: skip
+
+    def test_a_row_that_basilisk_wins_fails(self):
+        self.assertTrue(basilisk.holds({"a": self.row(1.1)}))
+        self.assertFalse(basilisk.holds({"a": self.row(1.1), "b": self.row(0.9)}))
+
+    def test_its_section_alone_is_renewed(self):
+        before = f"# Cost\n\n{basilisk.HEADING}\n\nold\n\n## Rest\n\nkept\n"
+        after = basilisk.replaced(before, {"quick": self.row(2.0)})
+        self.assertNotIn("old", after)
+        self.assertIn("| quick | 1 (HingedRigidBody) | 1 | 1 | 1 | 2 | 2 | 2 |", after)
+        self.assertTrue(after.startswith("# Cost\n\n## Beside") and after.endswith("\n\n## Rest\n\nkept\n"))
+        self.assertEqual(after, basilisk.replaced(after, {"quick": self.row(2.0)}))
+
+
 class Claims(unittest.TestCase):
     def results(self, ratio=30.0, heap=0.0, steps=1.0e6):
         count = programs.Count(1000.0, heap)
@@ -96,7 +125,7 @@ class Claims(unittest.TestCase):
         races = {case.name: race for case in measure.ALL}
         counts = {(case.name, engine): count for case in measure.ALL for engine in engines}
         batches = {claims.SMALL: {"AVX2": steps}}
-        return measure.Results(1, (0.0, 0.0), races, counts, [], {}, batches, {})
+        return measure.Results(1, (0.0, 0.0), races, counts, [], {}, batches, {}, {})
 
     def held(self, **figures):
         return all(claim.holds for claim in claims.claims(self.results(**figures)))
