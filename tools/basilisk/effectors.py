@@ -51,7 +51,7 @@ def can_be_special(module: dict) -> bool:
     loaded = {place["on"][0] for place in module.get("LOADS", {}).values() if place["on"]}
     names = {link for links in chains.values() for link in links}
     free = not any(name.split(".torque")[0] in names for name in inputs if name.endswith(".torque"))
-    free = free and not loaded & names and not module.get("HINGE_RESTS")
+    free = free and not loaded & chains.keys() and not module.get("RESTS")
     return bool(chains) and free and all(is_row(list(links.values())) for links in chains.values())
 
 
@@ -64,12 +64,11 @@ def special_name(module: dict) -> str:
 
 def special_vehicle(module: dict):
     """The BSM half of a script, with its chains of hinges made of special effectors."""
-    maker = module["HALVES"]["bsm"]
     chains = module["HINGES"]
     kept = dict(chains)
     chains.clear()
     try:
-        vehicle = maker()
+        vehicle = module["Vehicle"]("bsm")
     finally:
         chains.update(kept)
     for name, links in kept.items():

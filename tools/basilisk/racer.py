@@ -66,8 +66,8 @@ def effectors_of(module: dict) -> list[str]:
     """Basilisk's names of what the script's BSM half is made of."""
     if "bsm" not in module["HALVES"]:
         return []
-    vehicle = module["HALVES"]["bsm"]()
-    names = [type(each).__name__ for each in [*vehicle.modules[:-1], *vehicle.kept]]
+    vehicle = module["Vehicle"]("bsm")
+    names = [type(each).__name__ for each in [*vehicle.modules[:-1], *getattr(vehicle, "kept", [])]]
     short = [re.sub("StateEffector$", "", name) for name in names]
     wanted = [name for name in short if not re.search("Msg|Model|SpinningBody$|TranslatingBody$|Data$", name)]
     return sorted(set(wanted))
@@ -82,14 +82,12 @@ def facts(module: dict) -> dict:
         "duration_s": module["DURATION"],
         "integrator": module["INTEGRATOR"].__name__.replace("svIntegrator", "").lower(),
         "adaptive": "RELATIVE" in module,
-        "refused": module["REFUSED"],
-        "halves": sorted(module["HALVES"].keys() - module["REFUSED"].keys()),
+        "refused": {half: "; ".join(reasons) for half, reasons in module["REFUSED"].items()},
+        "halves": module["HALVES"],
         "has_gravity": "MU" in module,
         "drains": any(name.endswith(".flow") for name in inputs),
         "is_pushed": any(re.search(r"\.(force|flow)$", name) for name in inputs),
-        "is_point": "sigma_BN" not in str(module["HALVES"]["bsm"]().states)
-        if "bsm" in module["HALVES"]
-        else False,
+        "is_point": "CENTER" in module,
         "effectors": effectors_of(module),
         "hinges": bool(module.get("HINGES")),
         "special_effectors": effectors.special_name(module),
@@ -117,8 +115,8 @@ def main() -> None:
     print(json.dumps(facts(module)), flush=True)
     for line in sys.stdin:
         name, steps = line.split()
-        make = module["HALVES"].get(name) or (lambda: effectors.special_vehicle(module))
-        race = Race(make(), module["STEP"])
+        vehicle = module["Vehicle"](name) if name in module["HALVES"] else effectors.special_vehicle(module)
+        race = Race(vehicle, module["STEP"])
         seconds = race.seconds(int(steps)) / int(steps)
         print(json.dumps({"seconds": seconds, "end": end_of(race.vehicle)}), flush=True)
 
