@@ -297,6 +297,50 @@ simulation: {integrator: rk4, step: 0.1, duration: 1, record: 0.5}
   EXPECT_FALSE(folder.has("out/ladder.xml"));
 }
 
+TEST_F(Sccompile, WritesAScriptForBasiliskAsItDoesAllResults) {
+  const std::string rule = folder.path() + "/script.d";
+  const ProgramResult run = compile(kQuickstart, {"--emit", "basilisk", "--depfile", rule});
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_EQ(run.out + run.err, "");
+  const std::string path = folder.path() + "/out/wheels_and_panels.basilisk.py";
+  EXPECT_EQ(read_file(rule), path + ": \\\n  " + kQuickstart + "\n");
+  EXPECT_EQ(files(), 1);
+  EXPECT_EQ(compile(kQuickstart, {"--emit", "basilisk", "--list", "outputs"}).out, path + "\n");
+  const ProgramResult printed = sccompile({kQuickstart, "-o", "-", "--emit", "basilisk"});
+  EXPECT_EQ(printed.exit_code, 0);
+  EXPECT_EQ(printed.out, written("wheels_and_panels.basilisk.py"));
+}
+
+TEST_F(Sccompile, WritesAScriptForBasiliskOfTheHalfThatItCanHave) {
+  const ProgramResult run = compile("models/gallery/branched_arm.yaml", {"--emit", "basilisk"});
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_THAT(run.err, HasSubstr("warning[SC4004]: not in Basilisk's BSM: `finger_l` and "));
+  EXPECT_EQ(files(), 1);
+  EXPECT_EQ(compile("models/gallery/branched_arm.yaml").err,
+            "");  // of other results nothing is said
+}
+
+TEST_F(Sccompile, WritesNoScriptForBasiliskOfAVehicleThatItCannotHave) {
+  const Arguments of_both = {"--emit", "basilisk,bsm",
+                             "--set",  "simulation.step=0.1 ns",
+                             "--set",  "simulation.duration=1 us",
+                             "--set",  "simulation.record=1 us"};
+  const ProgramResult run = compile(kQuickstart, of_both);
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_THAT(run.err, HasSubstr("`wheels_and_panels.basilisk.py` is not written: "));
+  EXPECT_TRUE(folder.has("out/wheels_and_panels.bsm.json"));
+  EXPECT_EQ(files(), 1);
+}
+
+TEST_F(Sccompile, WritesTheSpecOfAStudyForBasiliskAndTellsOfNoMember) {
+  const ProgramResult run =
+      compile("models/paper/studies/torque_orbit_steps.yaml", {"--emit", "basilisk"});
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_EQ(files(), 1);
+  EXPECT_THAT(run.err, HasSubstr("note[SC4005]: in Basilisk's MJScene: "));
+  EXPECT_THAT(run.err, Not(HasSubstr("member")));
+}
+
 /// A bad command line, what is said about it and what is hinted at.
 struct Usage {
   const char* name;
