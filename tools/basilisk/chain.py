@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import dataclasses
 import json
+import math
 import pathlib
 import re
 import subprocess
@@ -79,8 +80,9 @@ def facts_of(script: pathlib.Path) -> dict:
     return json.loads(done.stdout)
 
 
-def nanoseconds(step: float) -> float:
-    return round(1e9 * step) / 1e9
+def nanoseconds(seconds: float) -> float:
+    """Whole ones, as Basilisk has them; never fewer, as a run may have to reach a stored state."""
+    return math.ceil(1e9 * seconds - 1e-6) / 1e9
 
 
 def as_in_basilisk(emission: Emission, settings: list[str]) -> list[str]:
@@ -98,10 +100,12 @@ def as_in_basilisk(emission: Emission, settings: list[str]) -> list[str]:
 def emit(spec: str, settings: list[str], folder: pathlib.Path) -> Emission:
     script, remarks = sccompile(spec, settings, folder)
     facts = facts_of(script)
-    whole = nanoseconds(facts["step_s"])
     extra = []
-    if whole != facts["step_s"]:
-        extra = [f"simulation.step={whole!r}"]
+    for key in ("step", "duration"):
+        whole = nanoseconds(facts[f"{key}_s"])
+        if whole != facts[f"{key}_s"]:
+            extra.append(f"simulation.{key}={whole!r}")
+    if extra:
         script, remarks = sccompile(spec, [*settings, *extra], folder)
         facts = facts_of(script)
     emission = Emission(script, facts, remarks, [])

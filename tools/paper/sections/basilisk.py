@@ -35,9 +35,7 @@ SPECS = {
 }
 QUICK = ("rw_panels",)
 RANDOM = 100  # vehicles, from seed 1; none in a quick run
-RANDOM_RUN = tuple(
-    f"simulation.{change}" for change in ("integrator=rk4", "step=5 ms", "duration=1 s", "record=0.1 s")
-)
+RANDOM_RUN = ("simulation.integrator=rk4", "simulation.step=5 ms", "simulation.record=0.1 s")
 COLUMNS = ("attitude_deg", "rate_rad_s", "position_m", "joint_rad", "travel_m", "wheel_rate_rad_s", "mass_kg")
 HEADS = ("attitude [deg]", "rate [rad/s]", "hub [m]", "joint [rad]", "slide [m]", "wheel [rad/s]", "mass [kg]")
 
