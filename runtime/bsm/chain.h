@@ -76,6 +76,7 @@ struct Plane {
 
 /// @tparam H  scalar of the hub and of the state  @tparam S  that of the limb, see lanes.h
 template <class H, class S>
+requires KernelScalars<H, S>
 class Chain {
  public:
   /// @param lanes  the same chain of like limbs, one per lane of S
@@ -90,7 +91,7 @@ class Chain {
 
   int mount() const { return mount_; }  // in the limb; -1: the hub
 
-  void hold(std::size_t lane_index, const ChainPlan& plan, const HeldInputs& held) {
+  void hold(std::size_t lane_index, const ChainPlan& plan, const HeldInputsIn<Number<H>>& held) {
     for (std::size_t i = 0; i < links_.size(); ++i) {
       const auto joint = static_cast<std::size_t>(plan.links[i].link - 1);
       set_lane(links_[i].effort, lane_index, held.effort.data()[joint]);
@@ -98,7 +99,7 @@ class Chain {
   }
 
   /// @param mount  how the mount moves: where it is matters for gravity and the centre of mass
-  void move(const double* state, const MountMotion<S>& mount) {
+  void move(const Number<H>* state, const MountMotion<S>& mount) {
     if (mount_ < 0) {  // the hub's axes are the working axes
       dcm_WC_ = dcm_PC_;
       r_HP_ = r_HP_P_;
@@ -157,7 +158,7 @@ class Chain {
   }
 
   /// Joint accelerations from the mount's.
-  void recover(const Vec<S>& omega_dot, const Vec<S>& a, double* rate) const {
+  void recover(const Vec<S>& omega_dot, const Vec<S>& a, Number<H>* rate) const {
     const Vec<S> a_H = a + cross(omega_dot, r_HP_) + a_bias_;
     Vec2<S> at{dot(dcm_WC_.x, a_H), dot(dcm_WC_.z, a_H)};
     S before = dot(dcm_WC_.y, omega_dot);

@@ -11,13 +11,13 @@ using namespace ::twincraft::TWINCRAFT_KERNEL;
 
 /// Modified Rodrigues parameters sigma_BN: three numbers, switched to their shadow outside the
 /// unit ball.
-template <class S>
+template <KernelScalar S>
 struct Mrp {
   Vec<S> sigma;
 
-  Mrp(const double* state, int at)
+  Mrp(const Number<S>* state, int at)
       : sigma{entry<S>(state, at), entry<S>(state, at + 1), entry<S>(state, at + 2)} {}
-  void put(double* state, int at) const {
+  void put(Number<S>* state, int at) const {
     put_entry(state, at, sigma.x);
     put_entry(state, at + 1, sigma.y);
     put_entry(state, at + 2, sigma.z);
@@ -42,7 +42,7 @@ struct Mrp {
   }
 
   /// sigmaDot = 1/4 [(1 - sigma^2) 1 + 2 sigma~ + 2 sigma sigma^T] omega
-  void put_rate(const Vec<S>& omega_BN_B, double* rate, int at) const {
+  void put_rate(const Vec<S>& omega_BN_B, Number<S>* rate, int at) const {
     Mrp dot_sigma = *this;
     const S half(0.5);
     dot_sigma.sigma = (S(0.25) - S(0.25) * dot(sigma, sigma)) * omega_BN_B +
@@ -60,15 +60,15 @@ struct Mrp {
 /// Quaternion, scalar first, B to N: four numbers with their rate, normalised after a step. Within
 /// a step it is read as if normalised, by its own rate too: the error of a step is then a third of
 /// what the rate of a stage off the unit sphere leaves.
-template <class S>
+template <KernelScalar S>
 struct Quaternion {
   S w;
   Vec<S> v;
 
-  Quaternion(const double* state, int at)
+  Quaternion(const Number<S>* state, int at)
       : w(entry<S>(state, at)),
         v{entry<S>(state, at + 1), entry<S>(state, at + 2), entry<S>(state, at + 3)} {}
-  void put(double* state, int at) const {
+  void put(Number<S>* state, int at) const {
     put_entry(state, at, w);
     put_entry(state, at + 1, v.x);
     put_entry(state, at + 2, v.y);
@@ -89,7 +89,7 @@ struct Quaternion {
   }
 
   /// qDot = 1/2 q (0, omega)
-  void put_rate(const Vec<S>& omega_BN_B, double* rate, int at) const {
+  void put_rate(const Vec<S>& omega_BN_B, Number<S>* rate, int at) const {
     const Vec<S> half = (S(0.5) / root(squared_norm())) * omega_BN_B;
     Quaternion q_dot = *this;
     q_dot.w = -dot(v, half);

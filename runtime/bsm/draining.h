@@ -11,22 +11,22 @@
 namespace twincraft::bsm::TWINCRAFT_KERNEL {
 
 /// The tanks of a spacecraft, or of one per lane: see Drain.
-template <class H>
+template <KernelScalar H>
 class Tanks {
  public:
   /// @param count  how many; one more, at the end, is always full: what drains with no tank
   explicit Tanks(std::size_t count) : tanks_(count + 1) {}
 
-  void hold(std::size_t l, const Inputs& inputs) {
+  void hold(std::size_t l, const InputsIn<Number<H>>& inputs) {
     if (l == 0) flow_ = false;
     for (std::size_t k = 0; k + 1 < tanks_.size(); ++k) {
-      const Drain& from = inputs.tanks.data()[k];
+      const auto& from = inputs.tanks.data()[k];
       Tank& tank = tanks_[k];
       set_lane(tank.full, l, from.full);
       set_lane(tank.spent, l, from.spent);
       set_lane(tank.since, l, from.since);
       set_lane(tank.flow, l, from.flow);
-      flow_ = flow_ || from.flow != 0.0;
+      flow_ = flow_ || !vanishes(from.flow);
     }
   }
   /// Their shares change until the next hold().
@@ -63,7 +63,7 @@ class Tanks {
 };
 
 /// The mass of a link.
-template <class S>
+template <KernelScalar S>
 struct LinkMass {
   S mass{};
   Vec<S> moment;  // [kg m] mass times the centre of mass from the link's origin, link axes
@@ -90,6 +90,7 @@ struct LinkMass {
 /// How the mass of a link, and of its elements, follows the tanks: see Draining. Of like links
 /// that share lanes one may drain and the other not.
 template <class H, class S>
+requires KernelScalars<H, S>
 class LinkDrain {
  public:
   void set(std::size_t l, const Plan& plan, const LinkPlan& link) {

@@ -28,7 +28,7 @@ using namespace ::twincraft::TWINCRAFT_KERNEL;
 
 /// The force and torque a subtree asks of its parent, about its origin.
 ///   n = J omegaDot + H a + n0,  f = H^T omegaDot + M a + f0
-template <class S>
+template <KernelScalar S>
 struct Law {
   Sym<S> J, M;    // [kg m^2], [kg]
   Mat<S> H;       // [kg m]

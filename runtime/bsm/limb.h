@@ -15,6 +15,7 @@
 namespace twincraft::bsm::TWINCRAFT_KERNEL {
 
 template <class H, class S>
+requires KernelScalars<H, S>
 class Limb {
  public:
   using Lanes = std::span<const LimbPlan* const>;  // one per lane of S, alike
@@ -48,7 +49,7 @@ class Limb {
     }
   }
 
-  void hold(std::size_t l, const LimbPlan& limb, const HeldInputs& held) {
+  void hold(std::size_t l, const LimbPlan& limb, const HeldInputsIn<Number<H>>& held) {
     for (std::size_t i = 0; i < links_.size(); ++i) {
       const LinkPlan& from = limb.links.data()[i];
       const auto link = static_cast<std::size_t>(from.link);
@@ -77,7 +78,7 @@ class Limb {
   }
 
   /// Positions and rates of all links from those of the hub.
-  void move(const double* state, const Vec<S>& omega_BN_B) {
+  void move(const Number<H>* state, const Vec<S>& omega_BN_B) {
     hub_.omega = omega_BN_B;
     for (std::size_t i = 0; i < links_.size(); ++i) move_link(i, state);
     for (Chain<H, S>& chain : chains_) chain.move(state, mount(chain.mount()));
@@ -110,7 +111,7 @@ class Limb {
   }
 
   /// Accelerations of joints and rotors from those of the hub.
-  void recover(const Vec<S>& omega_dot_B, const Vec<S>& a_B, double* rate) {
+  void recover(const Vec<S>& omega_dot_B, const Vec<S>& a_B, Number<H>* rate) {
     for (std::size_t i = 0; i < links_.size(); ++i) {
       const Link& link = links_[i];
       Motion& m = motions_[i];
@@ -220,7 +221,7 @@ class Limb {
     }
   }
 
-  void move_link(std::size_t i, const double* state) {
+  void move_link(std::size_t i, const Number<H>* state) {
     const Link& link = links_[i];
     Motion& m = motions_[i];
     const bool on_hub = link.parent < 0;

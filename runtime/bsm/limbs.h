@@ -12,6 +12,7 @@ namespace twincraft::bsm::TWINCRAFT_KERNEL {
 
 /// @tparam H, S  as of Vehicle
 template <class H, class S>
+requires KernelScalars<H, S>
 class Limbs {
  public:
   using Plans = std::span<const Plan* const>;  // one per lane of H, alike

@@ -252,38 +252,6 @@ Plan make_plan(const Assembly& assembly, AttitudeChart chart, const Gravity& gra
   return plan;
 }
 
-HeldInputs HeldInputs::none(const Assembly& assembly) {
-  const std::vector<Vector3d> nothing(assembly.links.size(), Vector3d::Zero());
-  return {std::vector<double>(assembly.links.size() - 1),
-          std::vector<double>(assembly.rotors.size()),
-          nothing,
-          nothing,
-          nothing,
-          false,
-          {}};
-}
-
-void HeldInputs::set(const Inputs& now, std::span<const Load> loads) {
-  inputs = now;
-  const InputLayout& at = inputs.layout;
-  std::copy_n(inputs.u.begin() + at.effort(0), effort.size(), effort.begin());
-  std::copy_n(inputs.u.begin() + at.motor_torque(0), motor_torque.size(), motor_torque.begin());
-  for (std::vector<Vector3d>* all : {&force_L, &torque_L, &force_at_center_L})
-    std::ranges::fill(*all, Vector3d::Zero());
-  acts_at_center = false;
-  for (std::size_t i = 0; i < loads.size(); ++i) {
-    const Load& load = loads[i];
-    const auto link = static_cast<std::size_t>(load.link);
-    const Vector3d force = inputs.vector(at.force(static_cast<int>(i)));
-    torque_L[link] += inputs.vector(at.torque(static_cast<int>(i)));
-    if (load.r_FL_L) {
-      force_L[link] += force;
-      torque_L[link] += load.r_FL_L->cross(force);
-    } else {
-      force_at_center_L[link] += force;
-      acts_at_center = acts_at_center || !force.isZero(0.0);
-    }
-  }
-}
+template struct HeldInputsIn<double>;
 
 }  // namespace twincraft::bsm

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "compiler/ir/forces.h"
-#include "compiler/ir/inputs.h"
 #include "compiler/ir/model.h"
+#include "runtime/bsm/held_inputs.h"
 #include "runtime/bsm/tree.h"
 
 namespace twincraft::bsm {
@@ -74,20 +74,5 @@ struct Plan {
 Plan make_plan(const Assembly& assembly, AttitudeChart chart, const Gravity& gravity,
                const std::vector<Load>& loads, ChainPath paths = ChainPath::kPlanar,
                Forces forces = {});
-
-/// What acts until the next event.
-struct HeldInputs {
-  std::vector<double> effort;        // [N m] or [N], one per link but the hub
-  std::vector<double> motor_torque;  // [N m], one per rotor, on the rotor
-  // Per link, in its axes and about its origin.
-  std::vector<Vector3d> force_L, torque_L;  // [N], [N m]
-  std::vector<Vector3d> force_at_center_L;  // [N] the same, but at the system centre of mass
-  bool acts_at_center = false;
-  Inputs inputs;  // all of them, for the forces that follow the motion of links
-
-  static HeldInputs none(const Assembly& assembly);
-  /// @param loads  of the model the inputs are of. No allocation.
-  void set(const Inputs& inputs, std::span<const Load> loads);
-};
 
 }  // namespace twincraft::bsm

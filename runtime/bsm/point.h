@@ -15,6 +15,7 @@
 namespace twincraft::bsm::TWINCRAFT_KERNEL {
 
 template <class H, class S>
+requires KernelScalars<H, S>
 class Point {
  public:
   using Lanes = std::span<const LimbPlan* const>;  // one per lane of S, alike
@@ -45,14 +46,12 @@ class Point {
     inverse_mass_ = S(1.0) / mass_;
   }
 
-  void hold(std::size_t l, const LimbPlan& limb, const HeldInputs& held) {
+  void hold(std::size_t l, const LimbPlan& limb, const HeldInputsIn<Number<H>>& held) {
     const auto link = static_cast<std::size_t>(limb.links.data()->link);
-    const Vector3d* force_L = held.force_L.data() + link;
-    const Vector3d* force_at_center_L = held.force_at_center_L.data() + link;
     set_lane(effort_, l, held.effort.data()[link - 1]);
-    set_lane(force_L_, l, *force_L);
+    set_lane(force_L_, l, held.force_L.data()[link]);
     set_lane(torque_L_, l, held.torque_L.data()[link]);
-    set_lane(force_at_center_L_, l, *force_at_center_L);
+    set_lane(force_at_center_L_, l, held.force_at_center_L.data()[link]);
   }
 
   /// As of Limb.
@@ -65,7 +64,7 @@ class Point {
     add_to<H>(pushed_.torque, limb, pull.torque);
   }
 
-  void move(const double* state, const Vec<S>& omega) {
+  void move(const Number<H>* state, const Vec<S>& omega) {
     const S q = gather<H, S>(state, position_);
     const S q_dot = gather<H, S>(state, rate_);
     r_ = r_HB_ + q * axis_;
@@ -112,7 +111,7 @@ class Point {
             f};
   }
 
-  void recover(const Vec<S>& omega_dot_B, const Vec<S>& a_B, double* rate) const {
+  void recover(const Vec<S>& omega_dot_B, const Vec<S>& a_B, Number<H>* rate) const {
     scatter<H, S>(gain_ - dot(axis_, a_B + cross(omega_dot_B, r_)), rate, rate_);
   }
 

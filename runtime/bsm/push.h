@@ -12,6 +12,7 @@ namespace twincraft::bsm::TWINCRAFT_KERNEL {
 
 /// @tparam H, S  as of Vehicle
 template <class H, class S>
+requires KernelScalars<H, S>
 class Push {
  public:
   /// @param limbs  learn to tell how they move, where there are such forces
@@ -28,7 +29,7 @@ class Push {
     limbs.for_each([](auto& group) { group.limb.watch(); });
   }
 
-  void hold(std::size_t l, const Plan& plan, const twincraft::Inputs& inputs) {
+  void hold(std::size_t l, const Plan& plan, const InputsIn<Number<H>>& inputs) {
     forces_.hold(l, plan.forces, inputs);
   }
 

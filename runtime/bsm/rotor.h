@@ -7,13 +7,14 @@ namespace twincraft::bsm::TWINCRAFT_KERNEL {
 
 /// On a link.
 template <class H, class S>
+requires KernelScalars<H, S>
 struct RotorOn {
   Vec<S> axis_L;
   S spin_inertia{}, motor_torque{};
   S spin_up{};  // [rad/s^2] what the motor gives a wheel on a mount at rest
   Places<H, S> speed{};
 
-  void hold(std::size_t l, double torque) {
+  void hold(std::size_t l, const Number<S>& torque) {
     set_lane(motor_torque, l, torque);
     set_lane(spin_up, l, torque / lane(spin_inertia, l));
   }

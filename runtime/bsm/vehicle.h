@@ -15,10 +15,11 @@ namespace twincraft::bsm::TWINCRAFT_KERNEL {
 /// @tparam H  scalar of the hub: a double, or one spacecraft per lane
 /// @tparam S  of the limbs: two like ones per Pair, or H where the lanes are spacecraft
 template <class H, class S>
+requires KernelScalars<H, S>
 class Vehicle {
  public:
   using Plans = std::span<const Plan* const>;  // one per lane of H, alike
-  using Inputs = std::span<const HeldInputs* const>;
+  using Held = std::span<const HeldInputsIn<Number<H>>* const>;
 
   explicit Vehicle(Plans plans) : plan_(*plans[0]), tanks_(plans[0]->tree.tanks) {
     const int omega = Layout::kAttitude + (plan_.chart == AttitudeChart::kMrp ? 3 : 4);
@@ -36,7 +37,7 @@ class Vehicle {
     push_.build(plans, limbs_);
   }
 
-  void hold(Inputs held) {
+  void hold(Held held) {
     acts_at_center_ = false;
     for (std::size_t l = 0; l < kLanes<H>; ++l) {
       set_lane(held_.force, l, *held[l]->force_L.data());
@@ -51,7 +52,9 @@ class Vehicle {
     }
     turns_alone_ = is_rigid_ && !has_elements_ && !acts_at_center_ && !push_.exists();
     for (std::size_t l = 0; l < kLanes<H>; ++l) {
-      turns_alone_ = turns_alone_ && held[l]->force_L.data()->isZero(0.0) &&
+      const auto& held_force = *held[l]->force_L.data();
+      turns_alone_ = turns_alone_ && vanishes(held_force.x()) && vanishes(held_force.y()) &&
+                     vanishes(held_force.z()) &&
                      plans_[l]->tree.links.data()->first_moment.isZero(0.0);
     }
     motor_torque_ = {};
@@ -65,12 +68,12 @@ class Vehicle {
     if (plan_.tree.tanks > 0) drain(held[0]->inputs.since);
   }
 
-  void derivative(double time, const double* state, double* rate) {
+  void derivative(Number<H> time, const Number<H>* state, Number<H>* rate) {
     if (tanks_.flow()) return derivative_draining(time, state, rate);
     derivative_steady(time, state, rate);
   }
 
-  void finish_step(double* state) const {
+  void finish_step(Number<H>* state) const {
     if (plan_.chart == AttitudeChart::kMrp) {
       Mrp<H> chart(state, Layout::kAttitude);
       chart.make_regular();
@@ -85,7 +88,7 @@ class Vehicle {
   const Law<H>& last_hub_law() const { return hub_; }
 
  private:
-  void derivative_steady(double time, const double* state, double* rate) {
+  void derivative_steady(Number<H> time, const Number<H>* state, Number<H>* rate) {
     if (plan_.chart == AttitudeChart::kMrp) {
       derivative_in<Mrp<H>>(time, state, rate);
     } else {
@@ -93,7 +96,8 @@ class Vehicle {
     }
   }
   // Apart, so that a vehicle whose tanks stay as they are pays one test.
-  [[gnu::noinline]] void derivative_draining(double time, const double* state, double* rate) {
+  [[gnu::noinline]] void derivative_draining(Number<H> time, const Number<H>* state,
+                                             Number<H>* rate) {
     drain(time);
     derivative_steady(time, state, rate);
   }
@@ -115,10 +119,10 @@ class Vehicle {
     Ldl<H> schur;
   };
 
-  static Vec<H> vector(const double* state, int at) {
+  static Vec<H> vector(const Number<H>* state, int at) {
     return {entry<H>(state, at), entry<H>(state, at + 1), entry<H>(state, at + 2)};
   }
-  static void put(const Vec<H>& v, double* state, int at) {
+  static void put(const Vec<H>& v, Number<H>* state, int at) {
     put_entry(state, at, v.x);
     put_entry(state, at + 1, v.y);
     put_entry(state, at + 2, v.z);
@@ -149,7 +153,7 @@ class Vehicle {
   }
 
   template <class Chart>
-  void derivative_in(double time, const double* state, double* rate) {
+  void derivative_in(Number<H> time, const Number<H>* state, Number<H>* rate) {
     const Chart chart(state, Layout::kAttitude);
     const Vec<H> omega = vector(state, layout_.omega);
     if (turns_alone_) {
@@ -176,7 +180,7 @@ class Vehicle {
   }
 
   // Apart from derivative_in(): most vehicles have no such force.
-  [[gnu::noinline]] void push(double time, const double* state, const Mat<H>& dcm_NB,
+  [[gnu::noinline]] void push(Number<H> time, const Number<H>* state, const Mat<H>& dcm_NB,
                               const Vec<H>& omega) {
     push_.add({H(time), vector(state, 0), vector(state, 3), dcm_NB}, omega, limbs_,
               [this](const Pull<H>& pull) {
@@ -188,7 +192,8 @@ class Vehicle {
   /// A rigid hub whose origin is its centre of mass, that no force acts on: rotation knows nothing
   /// of translation, nor the other way.
   template <class Chart>
-  void turn_alone(const Chart& chart, const Vec<H>& omega, const double* state, double* rate) {
+  void turn_alone(const Chart& chart, const Vec<H>& omega, const Number<H>* state,
+                  Number<H>* rate) {
     const Vec<H> spin = rotor_momentum(state, omega);
     hub_.n0 = cross(omega, mass_.J * omega + spin) + (motor_torque_ - held_.torque);
     hub_.f0 = {};
@@ -198,8 +203,8 @@ class Vehicle {
   }
 
   template <class Chart>
-  void put_hub_rates(const Chart& chart, const double* state, const Vec<H>& v_dot,
-                     const Vec<H>& omega_dot, double* rate) const {
+  void put_hub_rates(const Chart& chart, const Number<H>* state, const Vec<H>& v_dot,
+                     const Vec<H>& omega_dot, Number<H>* rate) const {
     put(vector(state, 3), rate, 0);
     put(v_dot, rate, 3);
     chart.put_rate(vector(state, layout_.omega), rate, Layout::kAttitude);
@@ -209,7 +214,7 @@ class Vehicle {
     }
   }
 
-  Vec<H> rotor_momentum(const double* state, const Vec<H>& omega) const {
+  Vec<H> rotor_momentum(const Number<H>* state, const Vec<H>& omega) const {
     Vec<H> spin;
     for (const RotorOn<H, H>& rotor : rotors_) {
       const H speed = entry<H>(state, rotor.speed[0]);
@@ -219,7 +224,7 @@ class Vehicle {
   }
 
   /// Let masses be those that the tanks leave at `time` [s].
-  void drain(double time) {
+  void drain(Number<H> time) {
     tanks_.move_to(H(time));
     if (draining_.drains()) {
       mass_ = draining_.mass(tanks_);

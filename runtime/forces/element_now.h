@@ -7,7 +7,7 @@
 namespace twincraft::TWINCRAFT_KERNEL {
 
 /// See MassElement; in the axes of its link, of a planar chain in the chain's.
-template <class S>
+template <KernelScalar S>
 struct ElementNow {
   S mass{};     // [kg]
   Vec<S> r_EL;  // [m]

@@ -9,7 +9,7 @@
 namespace twincraft::TWINCRAFT_KERNEL {
 
 /// -mu / r^3 and what goes with it. The default one pulls on nothing.
-template <class S>
+template <KernelScalar S>
 struct Field {
   S mu{};
   Vec<S> r;  // [m] of the hub's origin from the centre of the field

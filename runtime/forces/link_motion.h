@@ -7,7 +7,7 @@ namespace twincraft::TWINCRAFT_KERNEL {
 
 /// How a link moves, in working axes W. The velocity of B is left out: on orbit the difference of
 /// two true velocities would lose four digits.
-template <class S>
+template <KernelScalar S>
 struct LinkMotion {
   Mat<S> dcm_WL;
   Vec<S> omega;  // [rad/s] inertial
@@ -19,7 +19,7 @@ struct LinkMotion {
 };
 
 /// Where and when.
-template <class S>
+template <KernelScalar S>
 struct Surroundings {
   S time{};               // [s]
   Vec<S> r_BN_N, v_BN_N;  // [m], [m/s]
@@ -27,7 +27,7 @@ struct Surroundings {
 };
 
 /// A force and its torque about some origin.
-template <class S>
+template <KernelScalar S>
 struct Pull {
   Vec<S> force, torque;
 

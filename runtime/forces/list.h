@@ -22,7 +22,7 @@ template <class S>
 using ForceKinds = std::tuple<ForceKind<StreamLaw<S>, Stream, &Forces::streams>>;
 
 /// All of them that a vehicle has.
-template <class S>
+template <KernelScalar S>
 class ForceList {
  public:
   /// @param lanes  one per lane, alike: they act on the same links
@@ -37,7 +37,8 @@ class ForceList {
     });
   }
 
-  void hold(std::size_t l, const Forces& forces, const Inputs& inputs) {
+  /// @param inputs  Inputs, or what says the same in the numbers of S
+  void hold(std::size_t l, const Forces& forces, const auto& inputs) {
     if (l == 0) acts_ = false;
     for_each_kind([&](auto& kind) {
       for (std::size_t i = 0; i < kind.laws.size(); ++i)

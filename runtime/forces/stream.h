@@ -28,7 +28,7 @@
 
 namespace twincraft::TWINCRAFT_KERNEL {
 
-template <class S>
+template <KernelScalar S>
 class StreamLaw {
  public:
   static constexpr std::size_t kLinks = 2;  // the nozzle's, the element's
@@ -39,10 +39,11 @@ class StreamLaw {
     set_lane(k_, l, from.k_L);
   }
   /// @return whether it acts
-  bool hold(std::size_t l, const Stream& from, const Inputs& inputs) {
-    const double flow = inputs[inputs.layout.nozzle_flow(from.nozzle)];
-    set_lane(mdot_, l, flow > 0.0 ? from.part * flow : 0.0);
-    return flow > 0.0;
+  bool hold(std::size_t l, const Stream& from, const auto& inputs) {
+    const Number<S> flow = inputs[inputs.layout.nozzle_flow(from.nozzle)], nothing(0.0);
+    const Number<S> mdot = chosen(flow > nothing, Number<S>(from.part) * flow, nothing);
+    set_lane(mdot_, l, mdot);
+    return !vanishes(mdot);
   }
   /// Add what it does to its links, about the origin of each.
   void add(const Surroundings<S>&, const std::array<LinkMotion<S>, kLinks>& links,

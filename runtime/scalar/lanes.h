@@ -1,5 +1,6 @@
-// The scalars the kernel is written in: a double, or one double per SIMD lane (xsimd), so that the
-// same text steps one spacecraft, two like limbs of it at once, or many spacecraft side by side.
+// A double per SIMD lane (xsimd), so that the text of the kernel steps two like limbs of a
+// spacecraft at once, or many spacecraft side by side: all that is written for an instruction set,
+// and what scalar.h asks of it.
 //
 // The kernel is compiled once per instruction set, each time in a namespace of its own, and so is
 // xsimd: an inline function that leaked from one into another would run instructions the processor
@@ -8,7 +9,6 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstring>
 
@@ -43,16 +43,9 @@ using Pair = simd::batch<double, simd::sse2>;
 using Batch = simd::batch<double, BatchArch>;
 
 template <class S>
-inline constexpr std::size_t kLanes = S::size;
-template <>
-inline constexpr std::size_t kLanes<double> = 1;
-
-template <class S>
 struct SineCosine {
   S sine, cosine;
 };
-
-inline SineCosine<double> sine_cosine(double angle) { return {std::sin(angle), std::cos(angle)}; }
 
 template <class A>
 SineCosine<simd::batch<double, A>> sine_cosine(const simd::batch<double, A>& angle) {
@@ -60,21 +53,17 @@ SineCosine<simd::batch<double, A>> sine_cosine(const simd::batch<double, A>& ang
   return {sine, cosine};
 }
 
-inline double root(double x) { return std::sqrt(x); }
 template <class A>
 simd::batch<double, A> root(const simd::batch<double, A>& x) {
   return simd::sqrt(x);
 }
 
-inline double chosen(bool first, double a, double b) { return first ? a : b; }
 template <class A>
 simd::batch<double, A> chosen(const simd::batch_bool<double, A>& first,
                               const simd::batch<double, A>& a, const simd::batch<double, A>& b) {
   return simd::select(first, a, b);
 }
 
-/// Lane by lane, for building; not for inside a step.
-inline double lane(double value, std::size_t) { return value; }
 template <class A>
 double lane(const simd::batch<double, A>& value, std::size_t index) {
   double result;
@@ -82,82 +71,25 @@ double lane(const simd::batch<double, A>& value, std::size_t index) {
               sizeof result);
   return result;
 }
-inline void set_lane(double& value, std::size_t, double to) { value = to; }
 template <class A>
 void set_lane(simd::batch<double, A>& value, std::size_t index, double to) {
   std::memcpy(reinterpret_cast<char*>(&value) + sizeof(double) * index, &to, sizeof to);
 }
 
-/// An S whose lane l is number(l). Two numbers become one register at once: a register read back
-/// right after its lanes were stored one by one has to wait for them.
-template <class S, class Number>
-S from_lanes(const Number& number) {
-  if constexpr (kLanes<S> == 1) {
-    return number(0);
-  } else if constexpr (kLanes<S> == 2) {
-    return S(_mm_set_pd(number(1), number(0)));
-  } else {
-    S value;
-    for (std::size_t l = 0; l < kLanes<S>; ++l) set_lane(value, l, number(l));
-    return value;
-  }
+template <class S>
+S two_lanes(double first, double second) {
+  return S(_mm_set_pd(second, first));
 }
-
-/// Entry `index` of a state of H: one number per spacecraft.
-template <class H>
-H entry(const double* state, int index) {
-  if constexpr (kLanes<H> == 1) {
-    return state[index];
-  } else {
-    return H::load_unaligned(state + static_cast<std::ptrdiff_t>(kLanes<H>) * index);
-  }
+/// The first lane's place is written last.
+inline void put_two_lanes(const Pair& value, double* state, const std::array<int, 2>& places) {
+  _mm_storeh_pd(state + places[1], value);
+  _mm_storel_pd(state + places[0], value);
 }
-template <class H>
-void put_entry(double* state, int index, const H& value) {
-  if constexpr (kLanes<H> == 1) {
-    state[index] = value;
-  } else {
-    value.store_unaligned(state + static_cast<std::ptrdiff_t>(kLanes<H>) * index);
-  }
-}
-
-/// How many limbs of a spacecraft share one S: its lanes, or one when they are taken by spacecraft.
-template <class H, class S>
-inline constexpr std::size_t kLimbs = kLanes<S> / kLanes<H>;
-
-/// Where the same quantity of like limbs is in the state.
-template <class H, class S>
-using Places = std::array<int, kLimbs<H, S>>;
-
-template <class H, class S>
-S gather(const double* state, const Places<H, S>& places) {
-  if constexpr (kLimbs<H, S> == 1) {
-    return entry<H>(state, places[0]);
-  } else {
-    return S(_mm_set_pd(state[places[1]], state[places[0]]));
-  }
-}
-
-template <class H, class S>
-void scatter(const S& value, double* state, const Places<H, S>& places) {
-  if constexpr (kLimbs<H, S> == 1) {
-    put_entry<H>(state, places[0], value);
-  } else {  // the second place is the first one's again where there is no second limb
-    _mm_storeh_pd(state + places[1], value);
-    _mm_storel_pd(state + places[0], value);
-  }
-}
-
-/// The sum over limbs, of which there is one alone unless `is_full`.
-template <class H, class S>
-H gathered(const S& value, bool is_full) {
-  if constexpr (kLimbs<H, S> == 1) {
-    return value;
-  } else {
-    const __m128d lanes = value;
-    const double first = _mm_cvtsd_f64(lanes);
-    return is_full ? first + _mm_cvtsd_f64(_mm_unpackhi_pd(lanes, lanes)) : first;
-  }
+/// The sum of both lanes, or the first alone.
+inline double sum_of_lanes(const Pair& value, bool of_both) {
+  const __m128d lanes = value;
+  const double first = _mm_cvtsd_f64(lanes);
+  return of_both ? first + _mm_cvtsd_f64(_mm_unpackhi_pd(lanes, lanes)) : first;
 }
 
 }  // namespace twincraft::TWINCRAFT_KERNEL

@@ -1,13 +1,13 @@
-// Vectors of three and matrices of nine or six in any scalar of lanes.h: plain structs, so that the
+// Vectors of three and matrices of nine or six in any scalar: plain structs, so that the
 // compiler keeps them in registers. Tested by tests/runtime/kernel_test.cpp.
 #pragma once
 
 #include "compiler/ir/mass.h"
-#include "runtime/scalar/lanes.h"
+#include "runtime/scalar/scalar.h"
 
 namespace twincraft::TWINCRAFT_KERNEL {
 
-template <class S>
+template <KernelScalar S>
 struct Vec {
   S x{}, y{}, z{};
 
@@ -40,7 +40,7 @@ Vec<S> cross(const Vec<S>& a, const Vec<S>& b) {
 }
 
 /// By columns.
-template <class S>
+template <KernelScalar S>
 struct Mat {
   Vec<S> x, y, z;
 
@@ -77,7 +77,7 @@ Mat<S> cross_matrix(const Vec<S>& v) {
 }
 
 /// A symmetric matrix: what the recursion adds and eliminates in every link.
-template <class S>
+template <KernelScalar S>
 struct Sym {
   S xx{}, yy{}, zz{}, xy{}, xz{}, yz{};
 
@@ -138,7 +138,7 @@ struct Sym {
 };
 
 /// L D L^T of a symmetric positive definite matrix.
-template <class S>
+template <KernelScalar S>
 class Ldl {
  public:
   Ldl() = default;
@@ -177,16 +177,23 @@ inline Matrix3d eigen(const Sym<double>& m) {
 
 /// From Eigen, into one lane or into all.
 template <class S>
-void set_lane(Vec<S>& v, std::size_t index, const Vector3d& to) {
+void set_lane(Vec<S>& v, std::size_t index, const Eigen::Matrix<Number<S>, 3, 1>& to) {
   set_lane(v.x, index, to.x());
   set_lane(v.y, index, to.y());
   set_lane(v.z, index, to.z());
 }
 template <class S>
+requires(!std::same_as<Number<S>, double>) void set_lane(Vec<S>& v, std::size_t index,
+                                                         const Vector3d& constant) {
+  set_lane(v.x, index, constant.x());
+  set_lane(v.y, index, constant.y());
+  set_lane(v.z, index, constant.z());
+}
+template <class S>
 void set_lane(Mat<S>& m, std::size_t index, const Matrix3d& to) {
-  set_lane(m.x, index, to.col(0));
-  set_lane(m.y, index, to.col(1));
-  set_lane(m.z, index, to.col(2));
+  set_lane(m.x, index, Vector3d(to.col(0)));
+  set_lane(m.y, index, Vector3d(to.col(1)));
+  set_lane(m.z, index, Vector3d(to.col(2)));
 }
 template <class S>
 void set_lane(Sym<S>& m, std::size_t index, const Matrix3d& to) {
