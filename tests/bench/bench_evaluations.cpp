@@ -1,9 +1,11 @@
-// Single derivative evaluations of both engines, and whole RK4 steps of many spacecraft side by
-// side, one per SIMD lane, by Google Benchmark: its own options choose and repeat.
+// Single derivative evaluations of both engines, exact Jacobians, and whole RK4 steps of many
+// spacecraft side by side, one per SIMD lane, by Google Benchmark: its own options choose and
+// repeat.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
 #include "runtime/bsm/engine.h"
+#include "runtime/bsm/jacobian.h"
 #include "runtime/bsm/kernel.h"
 #include "runtime/integrate/runge_kutta.h"
 #include "runtime/mujoco/engine.h"
@@ -53,6 +55,22 @@ void evaluate(benchmark::State& loop, const Case& what, MakeEngine make) {
   for (auto _ : loop) {
     engine->derivative(time, {state.data(), size}, {rate.data(), size});
     benchmark::DoNotOptimize(rate.data());
+    benchmark::ClobberMemory();
+    time = time < 1.0 ? time + 1.0e-4 : 0.0;
+  }
+}
+
+/// All of A and B.
+void differentiate(benchmark::State& loop, const Case& what) {
+  const Bundle bundle = compiled(what.spec, what.settings);
+  bsm::Differentiator differentiator(bundle.model);
+  const Eigen::VectorXd state = make_bsm_engine(bundle.model)->initial_state();
+  bsm::Jacobian jacobian;
+  double time = 0.0;
+  for (auto _ : loop) {
+    differentiator.differentiate(time, {state.data(), static_cast<std::size_t>(state.size())},
+                                 jacobian);
+    benchmark::DoNotOptimize(jacobian.A.data());
     benchmark::ClobberMemory();
     time = time < 1.0 ? time + 1.0e-4 : 0.0;
   }
@@ -115,6 +133,7 @@ void register_all() {
     benchmark::RegisterBenchmark(("evaluation/bsm/" + what.name).c_str(), evaluate, what, analytic);
     benchmark::RegisterBenchmark(("evaluation/mujoco/" + what.name).c_str(), evaluate, what,
                                  by_mujoco);
+    benchmark::RegisterBenchmark(("jacobian/" + what.name).c_str(), differentiate, what);
   }
   for (const bsm::InstructionSet set :
        {bsm::InstructionSet::kPortable, bsm::InstructionSet::kAvx2, bsm::InstructionSet::kAvx512}) {
