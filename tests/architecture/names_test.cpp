@@ -35,8 +35,8 @@ std::vector<std::string> lines_with(const std::string& pattern) {
 TEST(Names, OfEnginesStandInTheirTable) {
   EXPECT_THAT(lines_with(R"re("(bsm|mujoco|BSM|MuJoCo)(\.csv|\.nc)?")re"),
               UnorderedElementsAre("compiler/ir/engine_kind.h", "compiler/ir/engine_kind.h",
-                                   "compiler/ir/bundle.h",       // of a target
-                                   "compiler/emit/mjcf.cpp",     // the root of MJCF
+                                   "compiler/ir/bundle.h",    // of a target
+                                   "compiler/emit/mjcf.cpp",  // the root of MJCF
                                    // halves of a script for Basilisk, and a module of it
                                    "compiler/emit/basilisk.cpp", "compiler/emit/basilisk_half.h",
                                    "compiler/emit/basilisk_mjscene_code.cpp",
