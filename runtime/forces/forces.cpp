@@ -65,6 +65,10 @@ void ForceModel::hold(const Inputs& inputs) {
     acting_loads_.push_back({load.link, pushes, !load.r_FL_L.has_value(), force_L, torque_L,
                              load.r_FL_L.value_or(Vector3d::Zero())});
   }
+  acts_on_hub_alone_ = !gravity_acts_ && !falls_as_a_whole() &&
+                       std::ranges::all_of(acting_loads_, [](const HeldLoad& load) {
+                         return load.link == 0 && !(load.pushes && load.at_system_com);
+                       });
 }
 
 void ForceModel::set_shares(std::span<const double> shares) {

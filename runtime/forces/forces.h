@@ -77,6 +77,10 @@ class ForceModel {
   /// Gravity is felt by no link: the loads are all that apply() would find.
   bool has_loads_alone() const { return !gravity_acts_; }
 
+  /// Nothing but loads at places of the hub: no other link is asked for, and in axes that turn with
+  /// the hub their wrench is the same until the next hold().
+  bool acts_on_hub_alone() const { return acts_on_hub_alone_; }
+
   /// fall() depends on where the links are.
   bool falls_as_a_whole() const {
     return law_ == GravityLaw::kSystemCom && frame_ == FieldFrame::kFalling;
@@ -132,6 +136,7 @@ class ForceModel {
   double mass_ = 0.0;
   std::vector<Load> loads_;
   std::vector<HeldLoad> acting_loads_;
+  bool acts_on_hub_alone_ = false;
 };
 
 /// g(r) of a point mass [m/s^2].

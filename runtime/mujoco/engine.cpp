@@ -80,6 +80,8 @@ class MujocoEngine final : public Engine {
   void move_to(std::span<const double> state);
   void gather_poses();
   void gather_rates(std::span<const int> links);
+  /// Into held_: nothing but these acts on the links until the next hold().
+  void hold_hub_loads();
   Found find_forces(double time, std::span<const double> state, const Matrix3d& dcm_NW,
                     bool with_work);
   /// Some force does, on some link.
@@ -97,8 +99,9 @@ class MujocoEngine final : public Engine {
   WrenchProjector projector_;
   ForceModel forces_;
   LinkForces link_forces_;
-  std::vector<double> held_;     // held efforts and motor torques, per MuJoCo dof
-  std::vector<double> applied_;  // inputs and projected wrenches
+  bool holds_all_loads_ = false;  // see hold_hub_loads
+  std::vector<double> held_;      // held efforts, motor torques and hub loads, per MuJoCo dof
+  std::vector<double> applied_;   // inputs and projected wrenches
   std::vector<LinkPose> poses_;
   std::vector<Wrench> wrenches_;
   std::vector<LinkRate> link_rates_;
@@ -135,6 +138,20 @@ void MujocoEngine::hold(const Inputs& inputs) {
   link_forces_.hold(inputs);
   drained_to_ = std::numeric_limits<double>::quiet_NaN();
   held_since_ = inputs.since;
+  hold_hub_loads();
+}
+
+// In the aligned frame a load in hub axes is one generalised force for all evaluations.
+void MujocoEngine::hold_hub_loads() {
+  holds_all_loads_ = machine_->placement == Placement::kAligned && forces_.acts_on_hub_alone() &&
+                     !link_forces_.acts();
+  Wrench load;
+  if (holds_all_loads_) {
+    const LinkPose hub{Matrix3d::Identity(), Vector3d::Zero()};
+    forces_.apply(Vector3d::Zero(), {&hub, 1}, {}, {&load, 1});
+  }
+  Eigen::Map<Vector3d>(held_.data()) = load.force_W;
+  Eigen::Map<Vector3d>(held_.data() + 3) = load.torque_PntB_W;
 }
 
 void MujocoEngine::drain(double time) {
@@ -160,9 +177,11 @@ void MujocoEngine::derivative(double time, std::span<const double> state, std::s
   mj_comVel(m, d);
   const double* applied = held_.data();
   Found found;
-  if (machine_->law != GravityLaw::kNone || acts()) {
+  if (holds_all_loads_ && books == nullptr) {
+    found.fall_N = forces_.fall(Input(state.data() + StateLayout::position()), dcm_NW, {});
+  } else if (machine_->law != GravityLaw::kNone || acts()) {
     found = find_forces(time, state, dcm_NW, books != nullptr);
-    if (acts()) {
+    if (acts() && !holds_all_loads_) {
       std::ranges::copy(held_, applied_.begin());
       projector_.add(*m, *d, wrenches_, applied_);
       applied = applied_.data();

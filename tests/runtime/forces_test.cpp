@@ -116,6 +116,29 @@ TEST(ForceModel, ActsWithALoadOnlyWhileItLasts) {
   EXPECT_TRUE(forces.is_idle());
 }
 
+// What is held for all evaluations must not depend on where links are.
+TEST(ForceModel, ActsOnTheHubAloneOnlyWhereNoOtherLinkMatters) {
+  Scene scene = random_scene();
+  const auto on_hub_alone = [&scene](int link, std::optional<Vector3d> place, GravityLaw law,
+                                     FieldFrame frame = FieldFrame::kFalling) {
+    Load load{"push", link, {}, {}, place};
+    load.force_L[1] = Schedule::constant(7.0);
+    scene.model.loads = {load};
+    return ForceModel(scene.model, law, scene.elements, frame).acts_on_hub_alone();
+  };
+  const Vector3d place(1.0, 2.0, 3.0);
+  EXPECT_TRUE(on_hub_alone(0, place, GravityLaw::kNone));
+  EXPECT_FALSE(on_hub_alone(1, place, GravityLaw::kNone));
+  EXPECT_FALSE(on_hub_alone(0, std::nullopt, GravityLaw::kNone));
+  for (const GravityLaw law :
+       {GravityLaw::kBodyCom, GravityLaw::kBodyGradient, GravityLaw::kSystemCom})
+    EXPECT_FALSE(on_hub_alone(0, place, law));
+  for (auto& link : scene.elements) link.clear();
+  scene.elements[0] = {{"hub", 10.0, Vector3d::Zero(), Matrix3d::Identity()}};
+  EXPECT_TRUE(on_hub_alone(0, place, GravityLaw::kBodyCom));
+  EXPECT_FALSE(on_hub_alone(0, place, GravityLaw::kBodyCom, FieldFrame::kInertial));
+}
+
 TEST(ForceModel, PutsALoadAtTheSystemCentreWithoutTurningTheVehicle) {
   Scene scene = random_scene();
   Load load{"push", 0, {}, {}, std::nullopt};
