@@ -138,7 +138,7 @@ struct Origin {
   Origin(const CompiledModel& model, EngineKind kind)
       : digest(model.digest()),
         engine(name_of(kind).key),
-        instructions(bsm::name_of(bsm::best_instruction_set())) {}
+        instructions(bsm::name_of(bsm::fastest_instruction_set(bsm::Use::kOne))) {}
 };
 
 void check(const std::string& found, const std::string& wanted, const char* what) {

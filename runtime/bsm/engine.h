@@ -9,7 +9,7 @@
 
 namespace twincraft {
 
-std::unique_ptr<Engine> make_bsm_engine(const Model& model,
-                                        bsm::InstructionSet set = bsm::best_instruction_set());
+std::unique_ptr<Engine> make_bsm_engine(
+    const Model& model, bsm::InstructionSet set = bsm::fastest_instruction_set(bsm::Use::kOne));
 
 }  // namespace twincraft

@@ -1,4 +1,4 @@
-// The inside of a step, behind an interface: built from a plan for the instruction set of this
+// The inside of a step, behind an interface: built from a plan for an instruction set of this
 // processor. Same program, same processor features: the same bytes come out; another instruction
 // set may fuse a product and a sum into one rounding, so its last digits differ.
 // Tested by tests/runtime/kernel_test.cpp.
@@ -7,10 +7,9 @@
 #include <cstddef>
 #include <memory>
 #include <span>
-#include <string_view>
-#include <vector>
 
 #include "runtime/bsm/plan.h"
+#include "runtime/bsm/processor.h"
 
 namespace twincraft::bsm {
 
@@ -33,17 +32,9 @@ class Kernel {
   virtual void hub_equation(std::span<double, 42> equation) const = 0;
 };
 
-/// x86-64 as every processor has it; with AVX2 and FMA; with AVX-512 (F, DQ).
-enum class InstructionSet { kPortable, kAvx2, kAvx512 };
-
-std::string_view name_of(InstructionSet set);
-/// The widest that this processor has.
-InstructionSet best_instruction_set();
-/// All that it has.
-std::vector<InstructionSet> instruction_sets();
-
 /// One spacecraft. @pre the processor has `set`, and the plan outlives the kernel
-std::unique_ptr<Kernel> make_kernel(const Plan& plan, InstructionSet set = best_instruction_set());
+std::unique_ptr<Kernel> make_kernel(const Plan& plan,
+                                    InstructionSet set = fastest_instruction_set(Use::kOne));
 
 /// How many spacecraft a batch steps at once.
 std::size_t batch_lanes(InstructionSet set);

@@ -249,9 +249,8 @@ std::vector<std::string> first_paths(const std::string& folder) {
 }
 
 Provenance provenance_of(const RunOptions& options, const std::string& program) {
-  Provenance made = provenance();
+  Provenance made = provenance(options.instructions);
   if (!program.empty()) made.program = program;
-  made.instructions = bsm::name_of(options.instructions);
   return made;
 }
 

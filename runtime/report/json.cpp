@@ -35,6 +35,8 @@ Json provenance_json(const Provenance& provenance) {
           {"mujoco", provenance.mujoco},
           {"eigen", provenance.eigen},
           {"instructions", provenance.instructions},
+          {"instructions_reason", provenance.instructions_reason},
+          {"instructions_available", provenance.instructions_available},
           {"cpu", provenance.cpu},
           {"cores", provenance.cores},
           {"load_average",

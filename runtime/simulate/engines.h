@@ -12,8 +12,9 @@
 namespace twincraft {
 
 /// @param instructions  of the analytic engine @throws NumericalFailure when it cannot be built
-std::unique_ptr<Engine> make_engine(EngineKind kind, const Bundle& bundle,
-                                    bsm::InstructionSet instructions = bsm::best_instruction_set());
+std::unique_ptr<Engine> make_engine(
+    EngineKind kind, const Bundle& bundle,
+    bsm::InstructionSet instructions = bsm::fastest_instruction_set(bsm::Use::kOne));
 
 /// Why an engine cannot fly a model at all; empty when it can.
 std::string refusal_of(EngineKind kind, const Model& model);

@@ -46,7 +46,9 @@ std::string LanesFlight::refusal(const Model& model) {
   return {};
 }
 
-std::size_t LanesFlight::lanes() { return bsm::batch_lanes(bsm::best_instruction_set()); }
+std::size_t LanesFlight::lanes() {
+  return bsm::batch_lanes(bsm::fastest_instruction_set(bsm::Use::kBatch));
+}
 
 LanesFlight::LanesFlight(const Model& model, const bsm::Plan& plan)
     : model_(model),
@@ -54,7 +56,7 @@ LanesFlight::LanesFlight(const Model& model, const bsm::Plan& plan)
       feeds_(lanes(), InputFeed(model)),
       held_(lanes(), bsm::HeldInputs::none(model.assembly)),
       kernel_(bsm::make_batch_kernel(std::vector<const bsm::Plan*>(lanes(), &plan),
-                                     bsm::best_instruction_set())),
+                                     bsm::fastest_instruction_set(bsm::Use::kBatch))),
       ode_(std::make_unique<LanesOde>(*kernel_,
                                       layout_.size() * static_cast<int>(kernel_->lanes()))),
       stepper_(tableau_of(model.simulation.method), *ode_),

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "compiler/ir/bundle.h"
-#include "runtime/bsm/kernel.h"
+#include "runtime/bsm/processor.h"
 #include "runtime/compare/agreement.h"
 #include "runtime/compare/conservation.h"
 #include "runtime/compare/verdict.h"
@@ -31,7 +31,7 @@ struct RunOptions {
   bool keep_samples = true;
   const std::atomic<bool>* stop = nullptr;  // set by a signal handler
   bool side_by_side = false;                // the engines on a thread each; the same results
-  bsm::InstructionSet instructions = bsm::best_instruction_set();  // of the analytic engine
+  bsm::Choice instructions = bsm::choose(bsm::Use::kOne);  // of the analytic engine
   /// Called now and then: what is being done, and how much of it, 0 to 1.
   std::function<void(std::string_view phase, double fraction)> progress;
 

@@ -3,6 +3,9 @@
 #pragma once
 
 #include <string>
+#include <vector>
+
+#include "runtime/bsm/processor.h"
 
 namespace twincraft {
 
@@ -13,12 +16,15 @@ struct Provenance {
   std::string flags;     // ours, as configured
   std::string mujoco;    // of the library that was loaded
   std::string eigen;
-  std::string instructions;  // the set the analytic engine chose: `x86-64`, `AVX2`, `AVX-512`
-  std::string cpu;           // empty when the system does not say
+  std::string instructions;  // the set that the analytic engine ran: `x86-64`, `AVX2`, `AVX-512`
+  std::string instructions_reason;                  // why it and no other of those
+  std::vector<std::string> instructions_available;  // that the processor has
+  std::string cpu;                                  // empty when the system does not say
   int cores = 0;
   double load_average = 0.0;  // over the last minute; negative when the system does not say
 };
 
-Provenance provenance();
+/// Of a run whose analytic engine has these instructions.
+Provenance provenance(const bsm::Choice& instructions = bsm::choose(bsm::Use::kOne));
 
 }  // namespace twincraft

@@ -84,7 +84,7 @@ class EngineFlight : public SampleSink {
   /// An engine may not even be built.
   void take_off(const Bundle& bundle, const Inspection& inspection, const RunOptions& options) {
     try {
-      engine_ = make_engine(engine_of(run_.name), bundle, options.instructions);
+      engine_ = make_engine(engine_of(run_.name), bundle, options.instructions.set);
       flight_ = std::make_unique<RecordedRun>(
           *engine_, model_, *this,
           PropagateOptions{.stop = options.stop, .instants = inspection.all()});

@@ -149,8 +149,10 @@ TEST_F(ScsimFolder, SaysWhichInstructionsRanAndComesOutAlikeWithAll) {
   ASSERT_EQ(run(tumbler, {"--isa", "portable"}).exit_code, 0);
   const json portable = json::parse(folder.read("out/report.json"));
   EXPECT_EQ(portable["provenance"]["instructions"], "x86-64");
+  EXPECT_EQ(portable["provenance"]["instructions_reason"], "--isa portable");
   ASSERT_EQ(run(tumbler, {}).exit_code, 0);
   const json best = json::parse(folder.read("out/report.json"));
+  EXPECT_NE(best["provenance"]["instructions_reason"], "--isa auto");
   for (const char* engine : {"bsm", "mujoco"}) {
     const json a = portable["members"][0]["engines"][engine]["final"]["omega_BN_B_rad_s"];
     const json b = best["members"][0]["engines"][engine]["final"]["omega_BN_B_rad_s"];

@@ -123,6 +123,7 @@ void step_batch(benchmark::State& loop, const Case& what, bsm::InstructionSet se
   }
   if (!stepper.state_is_finite()) loop.SkipWithError("the state is not finite");
   loop.counters["lanes"] = static_cast<double>(batch.lanes());
+  loop.counters["is_chosen"] = set == bsm::fastest_instruction_set(bsm::Use::kBatch) ? 1.0 : 0.0;
   loop.counters["spacecraft_steps"] = benchmark::Counter(
       static_cast<double>(batch.lanes()) * static_cast<double>(loop.iterations()),
       benchmark::Counter::kIsRate);
@@ -135,9 +136,7 @@ void register_all() {
                                  by_mujoco);
     benchmark::RegisterBenchmark(("jacobian/" + what.name).c_str(), differentiate, what);
   }
-  for (const bsm::InstructionSet set :
-       {bsm::InstructionSet::kPortable, bsm::InstructionSet::kAvx2, bsm::InstructionSet::kAvx512}) {
-    if (set > bsm::best_instruction_set()) continue;
+  for (const bsm::InstructionSet set : bsm::instruction_sets()) {
     for (const int segments : {1, 2, 4, 8, 16, 32}) {
       const Case what = flex(segments);
       const std::string name = fmt::format("batch/{}/{}", name_of(set), what.name);

@@ -1,6 +1,7 @@
 #include "tests/bench/raw_mujoco.h"
 
 #include <algorithm>
+#include <array>
 
 #include "runtime/engine/engine.h"
 #include "runtime/integrate/tableau.h"
@@ -10,8 +11,7 @@ namespace {
 
 MujocoModel load(const std::string& mjcf) {
   MujocoModel model = load_mjcf(mjcf);
-  model->ngeom = 0;  // pictures are for viewers
-  model->nsite = 0;
+  hide_pictures(*model);
   return model;
 }
 
@@ -77,6 +77,29 @@ void RawMujoco::write_position_rate(const double* qpos, const double* qvel, doub
 
 void RawMujoco::finish_step(std::span<double> state) {
   if (is_free_) Eigen::Map<Eigen::Vector4d>(state.data() + 3).normalize();
+}
+
+PlainMujoco::PlainMujoco(const std::string& mjcf, double h)
+    : model_(load(mjcf)), data_(make_data(*model_)) {
+  model_->opt.integrator = mjINT_RK4;
+  model_->opt.timestep = h;
+}
+
+void PlainMujoco::restart() { mj_resetDataKeyframe(model_.get(), data_.get(), 0); }
+
+void PlainMujoco::step() { mj_step(model_.get(), data_.get()); }
+
+// MuJoCo starts again from its defaults after a bad number, and counts a warning.
+bool PlainMujoco::is_sound() const {
+  return std::ranges::all_of(std::array{mjWARN_BADQPOS, mjWARN_BADQVEL, mjWARN_BADQACC},
+                             [this](mjtWarning bad) { return data_->warning[bad].number == 0; });
+}
+
+std::size_t run_raw(PlainMujoco& plain, std::size_t steps) {
+  plain.restart();
+  for (std::size_t i = 0; i < steps; ++i) plain.step();
+  if (!plain.is_sound()) throw NumericalFailure("mj_step: the state is not finite");
+  return steps;
 }
 
 std::size_t run_raw(RawMujoco& raw, double h, std::size_t steps) {

@@ -39,6 +39,29 @@ class RawMujoco final : public Ode {
   bool is_free_;  // the first joint; else all are slides and hinges
 };
 
+/// What a user of MuJoCo runs: its own loop around mj_step, RK4 by MuJoCo itself. Four forward
+/// evaluations a step, of which the first also asks for sensors, and checks for numbers that are
+/// not finite; sums without compensation, and time that is added up. The MJCF turns contacts and
+/// constraints off and has no sensor; gravity, loads and tanks are not in it.
+class PlainMujoco {
+ public:
+  /// @param h  the timestep [s] @throws NumericalFailure when MuJoCo does not load `mjcf`
+  PlainMujoco(const std::string& mjcf, double h);
+
+  /// Back to the MJCF's keyframe.
+  void restart();
+  void step();
+  /// No step met a number that is not finite.
+  bool is_sound() const;
+
+ private:
+  MujocoModel model_;
+  MujocoData data_;
+};
+
+/// @return `steps`, of mj_step
+std::size_t run_raw(PlainMujoco& plain, std::size_t steps);
+
 /// @return `steps` of RK4 from the initial state, `h` [s] each
 std::size_t run_raw(RawMujoco& raw, double h, std::size_t steps);
 

@@ -128,6 +128,34 @@ TEST_P(Engines, DoNotDisturbOneAnother) {
   }
 }
 
+/// The state after a flight of bare steps.
+Eigen::ArrayXd end_of(const Bundle& bundle, bsm::InstructionSet set) {
+  const auto engine = make_bsm_engine(bundle.model, set);
+  Flight flight(*engine, bundle.model, {});
+  flight.advance_to(bundle.model.simulation.duration);
+  const std::span<const double> state = flight.state();
+  return Eigen::Map<const Eigen::ArrayXd>(state.data(), static_cast<Eigen::Index>(state.size()));
+}
+
+// A fused product and sum rounds once. docs/outputs.md promises the bound: of a number, or of one
+// in its unit where that is more, after 1000 steps.
+TEST(InstructionSets, FlyTheSameTrajectoryAndRepeatTheirBytes) {
+  for (const char* file : {"models/paper/rw_panels.yaml", "models/paper/variable_mass.yaml",
+                           "models/paper/orbit_extended.yaml", "models/paper/flex_panels.yaml",
+                           "models/gallery/branched_arm.yaml"}) {
+    Bundle bundle = test::compiled_file(file);
+    bundle.model.simulation.method = Method::kRk4;
+    bundle.model.simulation.duration = 1000 * bundle.model.simulation.step;
+    const Eigen::ArrayXd portable = end_of(bundle, bsm::InstructionSet::kPortable);
+    for (const bsm::InstructionSet set : bsm::instruction_sets()) {
+      const Eigen::ArrayXd end = end_of(bundle, set);
+      EXPECT_LT(((end - portable).abs() / portable.abs().max(1.0)).maxCoeff(), 1e-14)
+          << file << ", " << name_of(set);
+      EXPECT_TRUE((end == end_of(bundle, set)).all()) << file << ", " << name_of(set);
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Of, Engines,
                          testing::Values("tests/components/vehicles/burn.yaml",
                                          "tests/components/vehicles/jet.yaml",

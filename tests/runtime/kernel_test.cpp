@@ -16,15 +16,6 @@ using bsm::InstructionSet;
 using test::KernelOf;
 using test::OracleState;
 
-std::vector<InstructionSet> sets_of_this_processor() {
-  std::vector<InstructionSet> sets;
-  for (const InstructionSet set :
-       {InstructionSet::kPortable, InstructionSet::kAvx2, InstructionSet::kAvx512}) {
-    if (set <= bsm::best_instruction_set()) sets.push_back(set);
-  }
-  return sets;
-}
-
 TEST(Lanes, HaveSinesGoodToTheLastDigits) {
   using portable::Pair;
   double worst = 0.0;
@@ -52,7 +43,7 @@ TEST(InstructionSets, GiveTheSameAccelerations) {
     const Vector3d r_BN(30.0, -40.0, 20.0);
     KernelOf portable(assembly, ChainPath::kPlanar, gravity, InstructionSet::kPortable);
     const Eigen::VectorXd expected = portable.accelerations(state, held, r_BN);
-    for (const InstructionSet set : sets_of_this_processor()) {
+    for (const InstructionSet set : bsm::instruction_sets()) {
       KernelOf other(assembly, ChainPath::kPlanar, gravity, set);
       EXPECT_LT((other.accelerations(state, held, r_BN) - expected).norm(), 1e-12 * expected.norm())
           << name_of(set);
@@ -149,17 +140,16 @@ void expect_every_lane_flies_alone(const InstructionSet set, bool drains) {
 }
 
 TEST(Batch, FliesEveryLaneAsASingleSpacecraft) {
-  for (const InstructionSet set : sets_of_this_processor())
+  for (const InstructionSet set : bsm::instruction_sets())
     expect_every_lane_flies_alone(set, false);
 }
 
 TEST(Batch, HasTanksOfItsOwnInEveryLane) {
-  for (const InstructionSet set : sets_of_this_processor())
-    expect_every_lane_flies_alone(set, true);
+  for (const InstructionSet set : bsm::instruction_sets()) expect_every_lane_flies_alone(set, true);
 }
 
 TEST(Batch, TakesNothingFromTheHeapInADerivative) {
-  const InstructionSet set = bsm::best_instruction_set();
+  const InstructionSet set = bsm::fastest_instruction_set(bsm::Use::kBatch);
   const Fleet fleet(bsm::batch_lanes(set), 6, 2, 47, true);
   const auto batch = bsm::make_batch_kernel(fleet.plan_of, set);
   batch->hold(fleet.held_of);

@@ -83,6 +83,8 @@ TEST(ReportJson, SaysWhichProgramAndMachineMadeIt) {
   const json provenance = parsed(sound_report())["provenance"];
   EXPECT_EQ(provenance["program"], "scsim " TWINCRAFT_VERSION);
   EXPECT_THAT(provenance["instructions"], AnyOf("x86-64", "AVX2", "AVX-512"));
+  EXPECT_THAT(provenance["instructions_available"], testing::Contains(provenance["instructions"]));
+  EXPECT_FALSE(provenance["instructions_reason"].get<std::string>().empty());
   for (const char* key : {"compiler", "flags", "mujoco", "eigen"})
     EXPECT_FALSE(provenance[key].get<std::string>().empty()) << key;
   for (const char* key : {"git", "cpu"}) EXPECT_TRUE(provenance[key].is_string()) << key;

@@ -26,7 +26,7 @@ class KernelOf {
  public:
   explicit KernelOf(const Assembly& assembly, ChainPath paths = ChainPath::kPlanar,
                     const Gravity& gravity = {},
-                    bsm::InstructionSet set = bsm::best_instruction_set());
+                    bsm::InstructionSet set = bsm::fastest_instruction_set(bsm::Use::kOne));
 
   Eigen::VectorXd accelerations(const OracleState& state, const bsm::HeldInputs& held,
                                 const Vector3d& r_BN_N = Vector3d::Zero());

@@ -6,12 +6,11 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <thread>
 
 #include "compiler/diag/print.h"
 #include "compiler/files/output.h"
-#include "runtime/bsm/kernel.h"
+#include "runtime/bsm/processor.h"
 #include "tools/programs/interrupt.h"
 
 namespace twincraft {
@@ -40,28 +39,19 @@ bool overlap(const std::string& a, const std::string& b) {
   return a == b || a.starts_with(b + ".") || b.starts_with(a + ".");
 }
 
-using bsm::InstructionSet;
-
-constexpr std::array<std::pair<std::string_view, InstructionSet>, 3> kInstructionSets{{
-    {"portable", InstructionSet::kPortable},
-    {"avx2", InstructionSet::kAvx2},
-    {"avx512", InstructionSet::kAvx512},
-}};
-
-InstructionSet instructions_of(std::string_view isa) {
-  for (const auto& [word, set] : kInstructionSets)
-    if (word == isa) return set;
-  return bsm::best_instruction_set();
+/// What `--isa` asks for; `auto` is what this processor runs faster.
+bsm::Choice instructions_of(const std::string& isa) {
+  if (const std::optional<bsm::InstructionSet> set = bsm::instruction_set_of(isa))
+    return {*set, "--isa " + isa};
+  return bsm::choose(bsm::Use::kOne);
 }
 
 /// Empty, or that this processor lacks it.
 std::string check_processor(const std::string& isa) {
-  if (instructions_of(isa) <= bsm::best_instruction_set()) return {};
-  std::string has;
-  for (const auto& [word, set] : kInstructionSets)
-    if (set <= bsm::best_instruction_set())
-      has += fmt::format("{}{}", has.empty() ? "" : ", ", word);
-  return fmt::format("this processor has no `{}`; it has {}", isa, has);
+  if (instructions_of(isa).set <= bsm::this_processor().widest) return {};
+  std::vector<std::string_view> has;
+  for (const bsm::InstructionSet set : bsm::instruction_sets()) has.push_back(word_of(set));
+  return fmt::format("this processor has no `{}`; it has {}", isa, fmt::join(has, ", "));
 }
 
 Compilation compile_watched(const CommonOptions& options, const Wanted& wanted,
