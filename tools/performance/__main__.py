@@ -8,6 +8,7 @@ import sys
 
 import basilisk
 import gate
+import history
 from document import document, holds
 from measure import measure
 from programs import ROOT, Failed
@@ -31,12 +32,24 @@ def arguments() -> argparse.Namespace:
     )
     parser.add_argument("--update", action="store_true", help="with --counts: store them")
     parser.add_argument(
+        "--step",
+        metavar="TITLE",
+        help="only count, and append to tests/bench/history.json what a step of the work brought",
+    )
+    parser.add_argument(
+        "--of",
+        metavar="COMMIT",
+        help="with --step: take the counts that the commit stored, instead of counting",
+    )
+    parser.add_argument(
         "--basilisk", action="store_true", help="only race Basilisk, and renew that section of FILE"
     )
     parser.add_argument("--rounds", type=int, default=6, help="of every race of Basilisk; default: 6")
     options = parser.parse_args()
-    if options.basilisk and options.counts:
-        parser.error("--basilisk and --counts exclude one another")
+    if sum([options.basilisk, options.counts, options.step is not None]) > 1:
+        parser.error("--basilisk, --counts and --step exclude one another")
+    if options.of is not None and options.step is None:
+        parser.error("--of goes with --step")
     if options.rounds < 1:
         parser.error("--rounds: at least one")
     if options.update and not options.counts:
@@ -53,6 +66,8 @@ def complain(text: str) -> None:
 def benchmark(options: argparse.Namespace) -> int:
     if options.counts:
         return gate.update() if options.update else gate.check()
+    if options.step is not None:
+        return history.append(options.step, options.of)
     if options.basilisk:
         return race_basilisk(options)
     results = measure(options.trials, options.rounds, complain)

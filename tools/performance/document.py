@@ -6,92 +6,26 @@ import os
 
 import basilisk
 import machine
-from cases import ALL, FLEX
-from claims import claims, exponent_of_counts, exponent_of_time, wrapper
+from cases import FLEX, GATED
+from claims import claims
 from measure import FEWER, MORE, Results
 from programs import run
+from tables import (
+    batch_table,
+    claim_table,
+    count_table,
+    evaluation_table,
+    exponent_table,
+    history_table,
+    race_table,
+    recorded_table,
+    set_table,
+    share_table,
+)
 
 
 def holds(results: Results) -> bool:
     return all(claim.holds for claim in claims(results)) and basilisk.holds(results.basilisk)
-
-
-def table(head: list[str], rows: list[list[str]]) -> str:
-    lines = [head, ["---", *["---:"] * (len(head) - 1)], *rows]
-    return "\n".join("| " + " | ".join(line) + " |" for line in lines)
-
-
-def claim_table(results: Results) -> str:
-    rows = []
-    for claim in claims(results):
-        verdict = "aim" if claim.reaches_aim else "must" if claim.holds else "**MISSED**"
-        rows.append([claim.what, claim.must, claim.aim, claim.reached, verdict])
-    return table(["analytic engine", "must", "aim", "reached", "holds"], rows)
-
-
-def race_table(results: Results) -> str:
-    rows = []
-    for case in ALL:
-        done = results.races[case.name]
-        engines = done["engines"]
-        cells = [case.name, str(done["degrees_of_freedom"])]
-        for name in ("bsm", "mujoco", "forward", "minimal"):
-            best, median = (engines[name][f"{kind}_us_per_step"] for kind in ("best", "median"))
-            cells.append(f"{best:.3g} / {median:.3g}")
-        cells.append(f"{done['ratios_of_best']['forward_over_bsm']:.1f}")
-        rows.append(cells)
-    return table(
-        ["", "DOF", "analytic", "MuJoCo engine", "`mj_forward`", "sub-stages", "times faster"], rows
-    )
-
-
-def count_table(results: Results) -> str:
-    engines = ("portable", "bsm", "mujoco", "forward", "minimal")
-    rows = []
-    for case in ALL:
-        each = [results.counts[case.name, engine].instructions for engine in engines]
-        beyond = f"{wrapper(results, case.name):+.1f} %"
-        rows.append(
-            [case.name, *(f"{count:,.0f}" for count in each), f"{each[3] / each[0]:.1f}", beyond]
-        )
-    head = ["", "analytic, any x86-64", "analytic, AVX2", "MuJoCo engine", "`mj_forward`"]
-    return table([*head, "sub-stages", "fewer", "MuJoCo engine beyond sub-stages"], rows)
-
-
-def exponent_table(results: Results) -> str:
-    named = [
-        ("analytic, any x86-64", "portable"),
-        ("analytic, best of the machine", "bsm"),
-        ("MuJoCo engine", "mujoco"),
-        ("`mj_forward`", "forward"),
-    ]
-    rows = []
-    for name, engine in named:
-        timed = "-" if engine == "portable" else f"{exponent_of_time(results, engine):.2f}"
-        rows.append([name, f"{exponent_of_counts(results, engine):.2f}", timed])
-    return table(["", "instructions", "time"], rows)
-
-
-def batch_table(results: Results) -> str:
-    sets = list(results.lanes)
-    rows = []
-    for name, row in results.batches.items():
-        single = 1.0 / results.races[name]["engines"]["bsm"]["best_us_per_step"]
-        rows.append([name, f"{single:.2f}", *(f"{row[one] / 1e6:.2f}" for one in sets)])
-    return table(["", "one at a time", *(f"{s}, {results.lanes[s]} lanes" for s in sets)], rows)
-
-
-def evaluation_table(results: Results) -> str:
-    rows = [
-        [name, f"{row['bsm']:.0f}", f"{row['mujoco']:.0f}", f"{row['mujoco'] / row['bsm']:.1f}"]
-        for name, row in results.evaluations.items()
-    ]
-    return table(["", "analytic [ns]", "MuJoCo engine [ns]", "ratio"], rows)
-
-
-def share_table(results: Results) -> str:
-    rows = [[name, f"{100 * share:.1f} %"] for name, share in results.shares]
-    return table(["instructions of a step", "share"], rows)
 
 
 def machine_text(results: Results) -> str:
@@ -130,23 +64,46 @@ Models are those of the paper's Table 1, its flexible arrays at N segments each 
 
 {race_table(results)}
 
-One process, one thread, the runs of the four contestants interleaved and their order reversed on alternate rounds, each
+One process, one thread, the runs of all contestants interleaved and their order reversed on alternate rounds, each
 timed by the processor time of the thread, so that a trial which another process interrupts costs no more. *analytic*
 ({instructions} here) and *MuJoCo engine* are the two engines of `scsim`, with everything a bare run needs. *`mj_forward`* and
 *sub-stages* are MuJoCo alone, on the same MJCF and with the same stepper, but with no force applied, no tank drained and no frame
-changed: in MuJoCo's favour. *sub-stages* are the eight calls that free multibody motion needs. The last column is
-`mj_forward` over analytic, best over best. Other work on the machine still disturbs caches and cores;
-the counts below it does not move.
+changed: in MuJoCo's favour. *sub-stages* are the eight calls that free multibody motion needs. *`mj_step`* is what a user of MuJoCo
+pays: its own RK4 on the same MJCF at the same step, constraints and contacts off as the MJCF says, pictures removed. A step is four forward
+evaluations, of which the first also asks for sensors (there are none), and checks for numbers that are not finite. It has no gravity, no
+loads and no tanks either, and lacks what our stepper does: sums with compensation, and ends of steps on a grid.
+
+Ratios are best over best. Other work on the machine still disturbs caches and cores; the counts below it does not move.
+
+## Instruction sets: time of one RK4 step of the analytic engine [µs, best]
+
+{set_table(results)}
+
+The engine takes {instructions} for one spacecraft here, and {results.batch_set} for batches: by a table of what was measured on processors
+of this make (`runtime/bsm/processor.cpp`), so that the same machine always gives the same bytes. `scsim --isa` takes another.
+The claims above fail when the table is wrong about this machine.
+
+## What a user's run costs beside the bare run
+
+{recorded_table(results)}
+
+A recorded run takes samples as the spec says and integrates the books of energy and momentum at every stage, as `scsim` does unless it
+times a run. Instructions are those of any x86-64, times best over best, the runs interleaved.
 
 ## Instructions of one RK4 step
 
 {count_table(results)}
 
 By callgrind: the difference of runs of {FEWER} and {MORE} steps, so that set-up is not in it. The same number comes out every time.
-`tools/check` holds six of the first column against `tests/bench/instructions.json` (`tools/benchmark --counts`). callgrind has
-no AVX-512. *fewer* is `mj_forward` over the first column. In the last column the rows with gravity, loads or tanks include them; the sub-stages have none.
+`tools/check` holds {len(GATED)} of the portable engine's, bare and recorded, against `tests/bench/instructions.json`
+(`tools/benchmark --counts`). callgrind has no AVX-512. *fewer* is `mj_forward` over the first column. In the last column the rows with
+gravity, loads or tanks include them; the sub-stages have none.
 
-Growth from 38 to 70 coordinates, as an exponent of their number:
+Instructions of the portable engine after each step of the work, where they changed:
+
+{history_table(results)}
+
+`tools/benchmark --step TITLE` adds a row. Growth from 38 to 70 coordinates, as an exponent of their number:
 
 {exponent_table(results)}
 
@@ -164,10 +121,13 @@ One spacecraft per SIMD lane, whole RK4 steps, the best of five.
 
 {evaluation_table(results)}
 
+*exact A and B* are all derivatives of the rates by states and inputs, by dual numbers (`bsm::Differentiator`).
+
 {basilisk.section(results.basilisk)}
 ## What can be relied on
 
-The same program on a processor with the same features gives the same bytes: the engine chooses its instruction set when it starts,
-the report says which (`provenance.instructions`), and nothing in a step depends on time, threads or addresses. Another
-instruction set may differ in the last digits, because the wider ones round a product and a sum once where x86-64 rounds twice.
+The same program on processors of one make and with the same features gives the same bytes: the engine chooses its instruction set by a
+table, the report says which and why (`provenance.instructions`, `instructions_reason`), and nothing in a step depends on time, threads or
+addresses. Another instruction set may differ in the last digits, because the wider ones round a product and a sum once where x86-64
+rounds twice.
 """
