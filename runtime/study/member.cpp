@@ -50,8 +50,8 @@ Timing time_member(const Bundle& bundle, const std::vector<EngineRun>& engines,
   for (const EngineRun& engine : engines)
     if (ran_through(engine))
       contestants.push_back(
-          bare_run(make_engine(engine_of(engine.name), bundle, options.instructions.set), bundle.model,
-                   options.stop));
+          bare_run(make_engine(engine_of(engine.name), bundle, options.instructions.set),
+                   bundle.model, options.stop));
   return time_engines(contestants, options.trials, [&options](int done, int planned) {
     options.show(fmt::format("timing trial {} of {}", std::min(done + 1, planned), planned),
                  static_cast<double>(done) / planned);
