@@ -10,7 +10,7 @@
 #include <type_traits>
 
 #include "runtime/api/faults.h"
-#include "runtime/bsm/kernel.h"
+#include "runtime/bsm/processor.h"
 
 namespace twincraft::api {
 namespace {
