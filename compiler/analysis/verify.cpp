@@ -138,14 +138,18 @@ Machine machine_of_tree(const Model& model) {
   return machine;
 }
 
+/// All in hub axes.
 struct Pose {
   Matrix3d dcm = Matrix3d::Identity();  // body to hub axes
-  Vector3d offset = Vector3d::Zero();   // [m] origin from the parent's origin, hub axes
-  Vector3d axis = Vector3d::Zero();     // hub axes
+  Vector3d offset = Vector3d::Zero();   // [m] origin from the parent's origin
+  Vector3d axis = Vector3d::Zero();
+  Vector3d center = Vector3d::Zero();  // [m] center of mass from the origin
+  Matrix3d inertia;                    // [kg m^2] about the center of mass
 };
 
 std::vector<Pose> poses_of(const Machine& machine, const VectorXd& q) {
   std::vector<Pose> poses;
+  poses.reserve(machine.bodies.size());
   for (const Body& body : machine.bodies) {
     Pose pose;
     if (body.parent >= 0) {
@@ -161,6 +165,8 @@ std::vector<Pose> poses_of(const Machine& machine, const VectorXd& q) {
         pose.offset += coordinate * pose.axis;
       }
     }
+    pose.center = pose.dcm * body.inertial.r_CL_L;
+    pose.inertia = pose.dcm * body.inertial.I_PntC_L * pose.dcm.transpose();
     poses.push_back(pose);
   }
   return poses;
@@ -175,6 +181,7 @@ struct Motor {
 std::vector<Motor> velocities(const Machine& machine, const std::vector<Pose>& poses,
                               const VectorXd& u) {
   std::vector<Motor> motion;
+  motion.reserve(poses.size());
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const Body& body = machine.bodies[i];
     Motor own{u.segment<3>(3), u.segment<3>(0)};
@@ -198,12 +205,10 @@ VectorXd generalised_momentum(const Machine& machine, const std::vector<Pose>& p
   VectorXd momentum = VectorXd::Zero(machine.coordinates);
   std::vector<Motor> carried(poses.size());
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    const MassProperties& inertial = machine.bodies[i].inertial;
-    const Vector3d c = poses[i].dcm * inertial.r_CL_L;
-    carried[i].linear = inertial.mass * (motion[i].linear + motion[i].angular.cross(c));
-    carried[i].angular =
-        poses[i].dcm * inertial.I_PntC_L * poses[i].dcm.transpose() * motion[i].angular +
-        c.cross(carried[i].linear);
+    const Vector3d& c = poses[i].center;
+    carried[i].linear =
+        machine.bodies[i].inertial.mass * (motion[i].linear + motion[i].angular.cross(c));
+    carried[i].angular = poses[i].inertia * motion[i].angular + c.cross(carried[i].linear);
   }
   const auto rotors = static_cast<int>(machine.rotors.size());
   for (int i = 0; i < rotors; ++i) {
@@ -265,11 +270,15 @@ double tolerance(const Model& model) {
   return 1e-12 + 1e-15 * static_cast<double>(model.tree.bodies.size());
 }
 
-void compare_mass_matrices(const Model& model, const VectorXd& q, const std::string& where,
-                           std::vector<std::string>& failures) {
+struct Halves {
+  Machine assembly, tree;
+};
+
+void compare_mass_matrices(const Model& model, const Halves& halves, const VectorXd& q,
+                           const std::string& where, std::vector<std::string>& failures) {
   const std::vector<int> compared = compared_coordinates(rigid_coordinates(model));
-  const MatrixXd a = mass_matrix(machine_of_assembly(model), q, compared);
-  const MatrixXd b = mass_matrix(machine_of_tree(model), q, compared);
+  const MatrixXd a = mass_matrix(halves.assembly, q, compared);
+  const MatrixXd b = mass_matrix(halves.tree, q, compared);
   double worst = 0.0;
   int row = 0;
   int column = 0;
@@ -297,13 +306,14 @@ VectorXd initial_configuration(const Model& model) {
 }
 
 void compare_motion(const Model& model, std::vector<std::string>& failures) {
+  const Halves halves{machine_of_assembly(model), machine_of_tree(model)};
   VectorXd q = initial_configuration(model);
-  compare_mass_matrices(model, q, "in the initial configuration", failures);
+  compare_mass_matrices(model, halves, q, "in the initial configuration", failures);
   std::mt19937_64 random(kSeed);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   for (int n = 1; n <= kRandomConfigurations && failures.empty(); ++n) {
     for (double& coordinate : q) coordinate = uniform(random);
-    compare_mass_matrices(model, q, fmt::format("in random configuration {}", n), failures);
+    compare_mass_matrices(model, halves, q, fmt::format("in random configuration {}", n), failures);
   }
 }
 
