@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "compiler/analysis/verify.h"
@@ -89,10 +90,10 @@ void require_one_machine(const Model& model) {
                                   fmt::join(failures, "; ")));
 }
 
-/// The value at a path of the resolved spec, the first one where the path means several.
-const Json* find_value(const Json& resolved, const std::vector<std::string>& path) {
+/// The value at some steps down a resolved value, the first one where they mean several.
+const Json* find_value(const Json& resolved, std::span<const std::string> steps) {
   const Json* value = &resolved;
-  for (const std::string& step : path) {
+  for (const std::string& step : steps) {
     const auto fits = [&step](const Json& member) {
       return step == "*" || (member.is_object() && member.value("name", "") == step);
     };
@@ -120,11 +121,17 @@ std::optional<double> number_of(const Json* value) {
   return std::sqrt(sum);
 }
 
-std::vector<Setting> settings_of(const std::vector<Override>& changes, const Json& resolved) {
+std::vector<Setting> settings_of(const std::vector<Override>& changes, const Spec& spec) {
   std::vector<Setting> settings;
+  std::string section_name;
+  Json section;  // changes of one section mostly follow one another
   for (const Override& change : changes) {
     settings.push_back(setting_of(change));
-    settings.back().value = number_of(find_value(resolved, change.path));
+    if (change.path.front() != section_name) {
+      section_name = change.path.front();
+      section = spec_table().write_key(spec, section_name);
+    }
+    settings.back().value = number_of(find_value(section, std::span(change.path).subspan(1)));
   }
   return settings;
 }
@@ -143,7 +150,7 @@ void tell(const std::vector<Remark>& remarks, const Spec& spec, Diagnostics& dia
 /// @pre every name in `wanted` is a target's
 Bundle emit(Model model, const Spec& spec, const Origin& origin,
             const std::vector<Override>& changes, const Wanted& wanted, Diagnostics& diagnostics) {
-  const Json resolved = spec_table().write(spec);
+  const Json resolved = wanted.empty() ? Json() : spec_table().write(spec);
   Bundle bundle;
   for (const std::string_view name : wanted) {
     const Target& target = *find_target(name);
@@ -156,7 +163,7 @@ Bundle emit(Model model, const Spec& spec, const Origin& origin,
   }
   bundle.spec_file = origin.file;
   bundle.spec_sha256 = origin.sha256;
-  bundle.settings = settings_of(changes, resolved);
+  bundle.settings = settings_of(changes, spec);
   bundle.model = std::move(model);
   return bundle;
 }

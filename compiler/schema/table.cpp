@@ -219,6 +219,8 @@ void add_group(TableInfo& info, KeyGroup group) {
 
 Json written_map(const TableInfo& info, std::vector<Json> values) {
   Json map = Json::object();
+  // Growing would copy what is in it, because an ordered map's keys cannot be moved.
+  map.get_ref<Json::object_t&>().reserve(values.size());
   for (std::size_t i = 0; i < values.size(); ++i) {
     const FieldInfo& field = info.fields[i];
     if (field.required || !is_nothing(values[i])) map[field.key] = std::move(values[i]);
@@ -306,9 +308,19 @@ void AnyTable::reset(void* value) const { body_->access.reset(value); }
 
 Json AnyTable::write_from(const void* value) const {
   std::vector<Json> items;
+  items.reserve(body_->members.size());
   for (const Body::Member& member : body_->members)
     items.push_back(member.kind.write_from(static_cast<const char*>(value) + member.offset));
   return written_map(body_->info, std::move(items));
+}
+
+Json AnyTable::write_key_from(const void* value, std::string_view key) const {
+  for (std::size_t i = 0; i < body_->members.size(); ++i) {
+    const Body::Member& member = body_->members[i];
+    if (body_->info.fields[i].key == key)
+      return member.kind.write_from(static_cast<const char*>(value) + member.offset);
+  }
+  return nullptr;
 }
 
 namespace {

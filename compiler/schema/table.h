@@ -80,6 +80,7 @@ class AnyTable {
   bool fill(void* value, const Node& node, const ReadContext& outer) const;
   void reset(void* value) const;
   Json write_from(const void* value) const;
+  Json write_key_from(const void* value, std::string_view key) const;
 
  protected:
   /// @param defaults  a value with all members at their initialisers
@@ -111,6 +112,11 @@ class Table : public AnyTable {
   template <class Result = Json>
   Result write(const T& value) const {
     return write_from(&value);
+  }
+  /// What `write` has at `key`, defaults included; null when there is no such key.
+  template <class Result = Json>
+  Result write_key(const T& value, std::string_view key) const {
+    return write_key_from(&value, key);
   }
 };
 
