@@ -62,11 +62,32 @@ bool has_bad_override(const Diagnostics& diagnostics) {
   return std::ranges::any_of(diagnostics.all(), is_bad);
 }
 
+/// What other specs are made of by changes: members of a study, variants.
+struct Base {
+  Node root;
+  // Read from `root`. Nothing where that gave a diagnostic, which a changed spec is to give again.
+  std::optional<Spec> spec;
+
+  explicit Base(Node tree) : root(std::move(tree)) {
+    Diagnostics diagnostics;
+    Spec whole = spec_table().read(root, diagnostics);
+    if (diagnostics.all().empty()) spec = std::move(whole);
+  }
+  Base(const Base&) = delete;  // the spec points into the tree
+  Base& operator=(const Base&) = delete;
+};
+
+/// @param base  null, or what `root` was made of: the spec points into it, too
+Spec read_sections(const Node& root, const Base* base, Diagnostics& diagnostics) {
+  if (base == nullptr || !base->spec) return spec_table().read(root, diagnostics);
+  return spec_table().reread(*base->spec, root, base->root, diagnostics);
+}
+
 /// Syntax tree to a spec in which every default is filled in and every reference holds.
-std::optional<Spec> read(const Node& root, Diagnostics& diagnostics) {
+std::optional<Spec> read(const Node& root, Diagnostics& diagnostics, const Base* base = nullptr) {
   if (!refuse_late_extends(root, diagnostics)) return std::nullopt;
   if (!check_format(root, diagnostics)) return std::nullopt;
-  Spec spec = spec_table().read(root, diagnostics);
+  Spec spec = read_sections(root, base, diagnostics);
   if (diagnostics.has_errors()) return std::nullopt;
   check(spec, diagnostics);
   if (diagnostics.has_errors()) return std::nullopt;
@@ -190,13 +211,20 @@ void remove_tolerances(Node& root) {
   if (Node* stored = root.find("stored")) remove_key(*stored, "tolerance");
 }
 
-/// @param root  receives the changes; the spec points into it
-std::optional<Spec> read_changed(Node& root, const std::vector<Override>& changes,
-                                 Diagnostics& diagnostics) {
-  for (const Override& change : changes) apply(change, root, diagnostics);
-  if (diagnostics.has_errors()) return std::nullopt;
-  return read(root, diagnostics);
-}
+/// A spec with the tree of its own that it points into, beside that of its base.
+struct Changed {
+  Node root;
+  std::optional<Spec> spec;  // nothing: it has errors
+
+  /// `base` with some changes: what they do not touch is not read again.
+  Changed(const Base& base, const std::vector<Override>& changes, Diagnostics& diagnostics)
+      : root(base.root) {
+    for (const Override& change : changes) apply(change, root, diagnostics);
+    if (!diagnostics.has_errors()) spec = read(root, diagnostics, &base);
+  }
+  Changed(const Changed&) = delete;
+  Changed& operator=(const Changed&) = delete;
+};
 
 /// Spec to bundle. @param changes  that made the spec what it is
 std::optional<Bundle> bundle_of(const Spec& spec, const Origin& origin,
@@ -267,25 +295,28 @@ void take_new_faults(const Diagnostics& of_member, std::size_t index,
 struct LoadedSpec::Parts {
   std::shared_ptr<const Sources> texts;
   Tree tree;
-  Spec spec;   // points into the tree
-  Node alone;  // the tree without its study: what members and variants start from
+  Spec spec;  // points into the tree
   std::optional<StudyMembers> study;
+  std::shared_ptr<const Base> alone;    // without its study: what variants are made of
+  std::shared_ptr<const Base> members;  // what members are made of
 
-  /// What a member's changes are made to.
-  Node base_of_members() const {
-    Node root = alone;
-    if (study->plan.is_work_precision) remove_tolerances(root);
-    return root;
+  void make_bases() {
+    Node root = tree.root;
+    remove_key(root, "study");
+    alone = members = std::make_shared<const Base>(root);
+    if (!study || !study->plan.is_work_precision) return;
+    remove_tolerances(root);
+    members = std::make_shared<const Base>(std::move(root));
   }
 
-  /// `root` with some changes, after those of the command line.
-  std::optional<Bundle> compile_changed(Node root, const std::vector<Override>& changes,
+  /// `base` with some changes, after those of the command line.
+  std::optional<Bundle> compile_changed(const Base& base, const std::vector<Override>& changes,
                                         const Wanted& wanted, Diagnostics& diagnostics) const {
-    const std::optional<Spec> changed = read_changed(root, changes, diagnostics);
-    if (!changed) return std::nullopt;
+    const Changed changed(base, changes, diagnostics);
+    if (!changed.spec) return std::nullopt;
     std::vector<Override> all = tree.changes;
     all.insert(all.end(), changes.begin(), changes.end());
-    return bundle_of(*changed, tree.origin, all, wanted, diagnostics);
+    return bundle_of(*changed.spec, tree.origin, all, wanted, diagnostics);
   }
 };
 
@@ -304,9 +335,8 @@ LoadResult load_spec(const CompileRequest& request, Diagnostics& diagnostics) {
   std::optional<Spec> spec = read(parts->tree.root, diagnostics);
   if (!spec) return {};
   parts->spec = std::move(*spec);
-  parts->alone = parts->tree.root;
-  remove_key(parts->alone, "study");
   if (parts->spec.study) parts->study = members_of(*parts->spec.study, diagnostics);
+  parts->make_bases();
   return {.spec = LoadedSpec(parts)};
 }
 
@@ -322,7 +352,7 @@ const StudyPlan* LoadedSpec::study() const {
 std::optional<Bundle> LoadedSpec::member(std::size_t index, const Wanted& wanted,
                                          Diagnostics& diagnostics) const {
   diagnostics.keep(parts_->texts);
-  return parts_->compile_changed(parts_->base_of_members(), parts_->study->overrides(index), wanted,
+  return parts_->compile_changed(*parts_->members, parts_->study->overrides(index), wanted,
                                  diagnostics);
 }
 
@@ -336,7 +366,7 @@ std::optional<Bundle> LoadedSpec::variant(const std::vector<std::string>& overri
     if (std::optional<Override> change = parse_override(text, *texts, diagnostics))
       changes.push_back(std::move(*change));
   if (diagnostics.has_errors()) return std::nullopt;
-  return parts_->compile_changed(parts_->alone, changes, wanted, diagnostics);
+  return parts_->compile_changed(*parts_->alone, changes, wanted, diagnostics);
 }
 
 void LoadedSpec::check_members(Diagnostics& diagnostics, const MemberProgress& progress) const {
@@ -344,14 +374,13 @@ void LoadedSpec::check_members(Diagnostics& diagnostics, const MemberProgress& p
   diagnostics.keep(parts_->texts);
   const std::size_t members = parts_->study->plan.members;
   const std::size_t checked =
-      std::min(members, members_to_check(parts_->base_of_members(), parts_->spec));
+      std::min(members, members_to_check(parts_->members->root, parts_->spec));
   for (std::size_t i = 0; i < checked; ++i) {
     if (progress) progress(i, checked);
     const std::vector<Override> changes = parts_->study->overrides(i);
     Diagnostics of_member;
-    Node root = parts_->base_of_members();
-    if (const std::optional<Spec> spec = read_changed(root, changes, of_member))
-      lower_finite(*spec, of_member);
+    const Changed changed(*parts_->members, changes, of_member);
+    if (changed.spec) lower_finite(*changed.spec, of_member);
     take_new_faults(of_member, i, changes, diagnostics);
     if (diagnostics.error_count() >= kEnoughFaults) return;
   }

@@ -19,6 +19,11 @@ bool AnyKind::read_into(void* value, const Node& node, ReadContext& context) con
   return body_->read(value, node, context);
 }
 
+bool AnyKind::reread_into(void* value, const Node& node, const Node& before,
+                          ReadContext& context) const {
+  return body_->reread(value, node, before, context);
+}
+
 Json AnyKind::write_from(const void* value) const { return body_->write(value); }
 
 namespace {
@@ -79,6 +84,21 @@ class ListKind : public KindBody {
     return good;
   }
 
+  bool reread(void* list, const Node& node, const Node& before,
+              ReadContext& context) const override {
+    // A list of another length need not have the same items at the same index.
+    if (!node.is_list() || !before.is_list() || node.items.size() != before.items.size())
+      return read(list, node, context);
+    bool good = true;
+    for (std::size_t i = 0; i < node.items.size(); ++i) {
+      if (node.items[i] == before.items[i]) continue;
+      ReadContext at_item = item_of(context, i);
+      good =
+          item_.reread_into(access_.edit(list, i), node.items[i], before.items[i], at_item) && good;
+    }
+    return good;
+  }
+
   Json write(const void* list) const override {
     Json items = Json::array();
     for (std::size_t i = 0; i < access_.size(list); ++i)
@@ -126,6 +146,13 @@ class MaybeKind : public KindBody {
     if (kind_.read_into(access_.emplace(optional), node, context)) return true;
     access_.reset(optional);
     return false;
+  }
+
+  bool reread(void* optional, const Node& node, const Node& before,
+              ReadContext& context) const override {
+    void* const value = access_.edit(optional);
+    if (value == nullptr) return read(optional, node, context);
+    return kind_.reread_into(value, node, before, context);
   }
 
   Json write(const void* optional) const override {

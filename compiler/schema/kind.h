@@ -45,6 +45,9 @@ class AnyKind {
 
   /// Report what is wrong and return false; else `value`, which is of the kind's type, is read.
   bool read_into(void* value, const Node& node, ReadContext& context) const;
+  /// The same for a value that was read from `before` without a diagnostic: the parts that `node`
+  /// has from there, place and all, stay as they are.
+  bool reread_into(void* value, const Node& node, const Node& before, ReadContext& context) const;
   /// SI numbers and canonical words; null leaves the key out. @param value  of the kind's type
   Json write_from(const void* value) const;
 

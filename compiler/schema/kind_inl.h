@@ -32,6 +32,7 @@ struct ListAccess {
   void* (*append)(void* list);  // an item to be read into
   std::size_t (*size)(const void* list);
   const void* (*item)(const void* list, std::size_t index);
+  void* (*edit)(void* list, std::size_t index);
 };
 AnyKind list_kind(const AnyKind& item, std::size_t minimum, std::size_t maximum, ListAccess access);
 AnyKind one_or_list_kind(const AnyKind& item, ListAccess access);
@@ -44,6 +45,9 @@ ListAccess list_access() {
           [](const void* list) { return static_cast<const List*>(list)->size(); },
           [](const void* list, std::size_t index) -> const void* {
             return static_cast<const List*>(list)->data() + index;
+          },
+          [](void* list, std::size_t index) -> void* {
+            return static_cast<List*>(list)->data() + index;
           }};
 }
 
@@ -61,6 +65,7 @@ struct OptionalAccess {
   void (*reset)(void* optional);
   void* (*emplace)(void* optional);
   const void* (*get)(const void* optional);  // null: nothing
+  void* (*edit)(void* optional);             // the same
 };
 AnyKind maybe_kind(const AnyKind& kind, OptionalAccess access);
 
@@ -72,6 +77,10 @@ Kind<std::optional<V>> maybe(const Kind<V>& kind) {
              [](void* optional) -> void* { return &static_cast<Optional*>(optional)->emplace(); },
              [](const void* optional) -> const void* {
                const auto& value = *static_cast<const Optional*>(optional);
+               return value ? &*value : nullptr;
+             },
+             [](void* optional) -> void* {
+               auto& value = *static_cast<Optional*>(optional);
                return value ? &*value : nullptr;
              }}));
 }

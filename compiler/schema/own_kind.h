@@ -23,6 +23,11 @@ struct KindBody {
   virtual ~KindBody() = default;
 
   virtual bool read(void* value, const Node& node, ReadContext& context) const = 0;
+  /// See AnyKind::reread_into. What is not made of parts is read whole.
+  virtual bool reread(void* value, const Node& node, [[maybe_unused]] const Node& before,
+                      ReadContext& context) const {
+    return read(value, node, context);
+  }
   virtual Json write(const void* value) const = 0;
 
   const std::string text;

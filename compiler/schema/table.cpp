@@ -143,6 +143,13 @@ void leave_out_excluded(const TableInfo& info, Json& written) {
   }
 }
 
+/// Whether every key of `before` is one of `node`, which may have more.
+bool has_keys_of(const Node& node, const Node& before) {
+  return node.is_map() && before.is_map() &&
+         std::ranges::all_of(
+             before.keys, [&node](const Node::Key& key) { return node.find(key.name) != nullptr; });
+}
+
 /// The map's own `name`, when it can be shown.
 std::string own_name(const Node& map) {
   const Node* name = map.find("name");
@@ -288,6 +295,18 @@ void AnyTable::add_group(std::vector<std::string> keys, bool required) {
 }
 
 bool AnyTable::fill(void* value, const Node& node, const ReadContext& outer) const {
+  return read_members(value, node, nullptr, outer);
+}
+
+bool AnyTable::refill(void* value, const Node& node, const Node& before,
+                      const ReadContext& outer) const {
+  if (has_keys_of(node, before)) return read_members(value, node, &before, outer);
+  reset(value);
+  return fill(value, node, outer);
+}
+
+bool AnyTable::read_members(void* value, const Node& node, const Node* before,
+                            const ReadContext& outer) const {
   const TableInfo& table = body_->info;
   char* const begin = static_cast<char*>(value);
   if (const auto written = body_->access.written)
@@ -297,9 +316,15 @@ bool AnyTable::fill(void* value, const Node& node, const ReadContext& outer) con
     const std::string& key = table.fields[i].key;
     const Node* item = node.find(key);
     if (item == nullptr) continue;
+    const Node* item_before = before == nullptr ? nullptr : before->find(key);
+    if (item_before != nullptr && *item == *item_before) continue;
     ReadContext context = field_context(table, key, node, outer);
     const Body::Member& member = body_->members[i];
-    good = member.kind.read_into(begin + member.offset, *item, context) && good;
+    void* const place = begin + member.offset;
+    good =
+        (item_before == nullptr ? member.kind.read_into(place, *item, context)
+                                : member.kind.reread_into(place, *item, *item_before, context)) &&
+        good;
   }
   return good;
 }
@@ -333,6 +358,10 @@ class ObjectKind : public KindBody {
   bool read(void* value, const Node& node, ReadContext& context) const override {
     table_.reset(value);
     return table_.fill(value, node, context);
+  }
+  bool reread(void* value, const Node& node, const Node& before,
+              ReadContext& context) const override {
+    return table_.refill(value, node, before, context);
   }
   Json write(const void* value) const override { return table_.write_from(value); }
 

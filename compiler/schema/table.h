@@ -78,6 +78,9 @@ class AnyTable {
 
   /// Read the members that are written; the others stay. @return whether there was no fault
   bool fill(void* value, const Node& node, const ReadContext& outer) const;
+  /// The same for a value that was read from `before` without a diagnostic: see
+  /// AnyKind::reread_into.
+  bool refill(void* value, const Node& node, const Node& before, const ReadContext& outer) const;
   void reset(void* value) const;
   Json write_from(const void* value) const;
   Json write_key_from(const void* value, std::string_view key) const;
@@ -88,6 +91,10 @@ class AnyTable {
   void add_group(std::vector<std::string> keys, bool required);
 
  private:
+  /// @param before  null: nothing was read before
+  bool read_members(void* value, const Node& node, const Node* before,
+                    const ReadContext& outer) const;
+
   struct Body;
   std::shared_ptr<Body> body_;
 };
@@ -106,7 +113,10 @@ class Table : public AnyTable {
   /// Read a map: unknown keys (with the nearest known one as hint), missing required keys, and
   /// every fault of every value are reported. The struct is complete only when no error was added.
   T read(const Node& node, Diagnostics& diagnostics) const;
-  /// The same for a map inside another one; nothing when there was a fault.
+  /// What `read` would give, made of `value`, which it gave for `before` without a diagnostic. What
+  /// `node` does not change is not read again, and goes on pointing into `before`.
+  T reread(T value, const Node& node, const Node& before, Diagnostics& diagnostics) const;
+  /// As `read`, of a map inside another one; nothing when there was a fault.
   std::optional<T> read_inside(const Node& node, const ReadContext& outer) const;
   /// A template, so that Json need be complete for callers alone.
   template <class Result = Json>

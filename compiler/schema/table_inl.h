@@ -62,6 +62,12 @@ T Table<T>::read(const Node& node, Diagnostics& diagnostics) const {
 }
 
 template <class T>
+T Table<T>::reread(T value, const Node& node, const Node& before, Diagnostics& diagnostics) const {
+  refill(&value, node, before, ReadContext{.diagnostics = diagnostics, .where = {}});
+  return value;
+}
+
+template <class T>
 std::optional<T> Table<T>::read_inside(const Node& node, const ReadContext& outer) const {
   std::optional<T> value(std::in_place);
   if (!fill(&*value, node, outer)) return std::nullopt;

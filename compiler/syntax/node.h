@@ -15,6 +15,8 @@ struct Node {
   struct Key {
     std::string name;
     Span span;
+
+    bool operator==(const Key&) const = default;
   };
 
   Kind kind = Kind::kNull;
@@ -23,6 +25,9 @@ struct Node {
   bool quoted = false;      // kScalar: written in quotes
   std::vector<Key> keys;    // kMap: keys[i] belongs to items[i]
   std::vector<Node> items;  // kList, kMap
+
+  /// The same text at the same place.
+  bool operator==(const Node&) const = default;
 
   bool is_null() const { return kind == Kind::kNull; }
   bool is_scalar() const { return kind == Kind::kScalar; }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "compiler/schema/manual.h"
+#include "compiler/schema/own_kind.h"
 #include "compiler/schema/partial.h"
 #include "compiler/schema/table_info.h"
 #include "tests/compiler/schema_reading.h"
@@ -125,6 +126,69 @@ TEST(Table, RemembersWhereEachValueWasWritten) {
   EXPECT_EQ(cart.axle.span_of("play").line, 6);
   EXPECT_EQ(cart.axle.span().column, 7);
   EXPECT_EQ(CartSpec().span_of("mass").source, nullptr);
+}
+
+/// A text that counts how often one was read.
+Kind<std::string> counted(int& count) {
+  return own_kind<std::string>(
+      {.text = "text",
+       .schema = {},
+       .read = [&count](const Node& node, ReadContext&) -> std::optional<std::string> {
+         ++count;
+         return node.scalar;
+       },
+       .write = [](const std::string& value) -> Json { return value; }});
+}
+
+struct LeafSpec : Written {
+  std::string name, colour = "green";
+};
+struct BranchSpec : Written {
+  std::vector<LeafSpec> leaves;
+  std::optional<LeafSpec> flower;
+};
+
+TEST(Table, ReadsAgainOnlyWhatIsNotWrittenAsBefore) {
+  int count = 0;
+  const Table<LeafSpec> leaf{"leaf",
+                             "A leaf.",
+                             {required("name", &LeafSpec::name, counted(count), "its name"),
+                              optional("colour", &LeafSpec::colour, counted(count), "its colour")}};
+  const Table<BranchSpec> table{
+      "branch",
+      "A branch.",
+      {optional("leaves", &BranchSpec::leaves, list_of(object(leaf)), "its leaves"),
+       optional("flower", &BranchSpec::flower, maybe(object(leaf)), "its flower")}};
+  const Text before("leaves: [{name: a, colour: red}, {name: b}]\nflower: {name: c, colour: blue}");
+  Diagnostics diagnostics;
+  const BranchSpec branch = table.read(before.root, diagnostics);
+  ASSERT_EQ(count, 5);
+  const auto reread = [&](const Node& node) {
+    count = 0;
+    return table.reread(branch, node, before.root, diagnostics);
+  };
+
+  Node node = before.root;
+  EXPECT_EQ(reread(node).leaves[1].name, "b");
+  EXPECT_EQ(count, 0);
+
+  node.find("leaves")->items[0].find("colour")->scalar = "brown";
+  BranchSpec changed = reread(node);
+  EXPECT_EQ(count, 1);
+  EXPECT_EQ(changed.leaves[0].name, "a");
+  EXPECT_EQ(changed.leaves[0].colour, "brown");
+  EXPECT_EQ(changed.leaves[0].node, node.find("leaves")->items.data());
+
+  node.find("flower")->keys.pop_back();
+  node.find("flower")->items.pop_back();
+  changed = reread(node);
+  EXPECT_EQ(changed.flower->name, "c");
+  EXPECT_EQ(changed.flower->colour, "green");  // as if it had never been written
+  EXPECT_EQ(count, 2);
+
+  node.find("leaves")->items.pop_back();
+  EXPECT_EQ(reread(node).leaves.size(), 1u);
+  EXPECT_EQ(lines_of(diagnostics), std::vector<std::string>{});
 }
 
 TEST(Table, HintsAtTheNearestKeyOrListsThemAll) {
