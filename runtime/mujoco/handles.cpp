@@ -60,23 +60,30 @@ void install_hooks() {
   }();
 }
 
-struct VfsDeleter {
-  void operator()(mjVFS* vfs) const {
-    mj_deleteVFS(vfs);
-    delete vfs;
+/// One file in memory as long as this lives. An mjVFS holds its table of names by value, two
+/// megabytes: never on the stack, and one for all, because clearing it is half of loading a small
+/// model. @pre one at a time
+class FileInMemory {
+ public:
+  explicit FileInMemory(const std::string& text) {
+    if (mj_makeEmptyFileVFS(&files(), kFileName, static_cast<int>(text.size())) != 0) {
+      throw NumericalFailure("mujoco: can not hold the model in memory");
+    }
+    std::memcpy(files().filedata[mj_findFileVFS(&files(), kFileName)], text.data(), text.size());
+  }
+  FileInMemory(const FileInMemory&) = delete;
+  FileInMemory& operator=(const FileInMemory&) = delete;
+  ~FileInMemory() { mj_deleteFileVFS(&files(), kFileName); }
+
+  static mjVFS& files() {
+    static const std::unique_ptr<mjVFS> vfs = [] {
+      std::unique_ptr<mjVFS> empty(new mjVFS);
+      mj_defaultVFS(empty.get());
+      return empty;
+    }();
+    return *vfs;
   }
 };
-
-// An mjVFS holds its table of names by value, two megabytes: never on the stack.
-std::unique_ptr<mjVFS, VfsDeleter> in_memory(const std::string& mjcf) {
-  std::unique_ptr<mjVFS, VfsDeleter> vfs(new mjVFS);
-  mj_defaultVFS(vfs.get());
-  if (mj_makeEmptyFileVFS(vfs.get(), kFileName, static_cast<int>(mjcf.size())) != 0) {
-    throw NumericalFailure("mujoco: can not hold the model in memory");
-  }
-  std::memcpy(vfs->filedata[mj_findFileVFS(vfs.get(), kFileName)], mjcf.data(), mjcf.size());
-  return vfs;
-}
 
 }  // namespace
 
@@ -85,9 +92,10 @@ MujocoModel load_mjcf(const std::string& mjcf) {
   const std::lock_guard lock(one_at_a_time);
   install_hooks();
   take_mujoco_warnings();  // of whatever ran before
-  const auto vfs = in_memory(mjcf);
+  const FileInMemory file(mjcf);
   std::array<char, 1000> error{};
-  MujocoModel model(mj_loadXML(kFileName, vfs.get(), error.data(), static_cast<int>(error.size())));
+  MujocoModel model(
+      mj_loadXML(kFileName, &FileInMemory::files(), error.data(), static_cast<int>(error.size())));
   if (!model) {
     throw NumericalFailure(fmt::format("mujoco: {} {}", error.data(), take_mujoco_warnings()));
   }
