@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <stdexcept>
 
@@ -19,10 +20,12 @@ namespace {
 
 using Places = std::map<std::string, std::string, std::less<>>;
 
-/// Without the note that leads developer tools to a file that is not there.
+/// Without the note at the end that leads developer tools to a file that is not there.
 std::string_view without_source_map(std::string_view text) {
+  constexpr std::size_t kLongest = 200;  // bytes; what is before them is not looked at
+  const std::size_t end = text.size() - std::min(text.size(), kLongest);
   for (const std::string_view mark : {"//# sourceMappingURL=", "/*# sourceMappingURL="})
-    text = text.substr(0, text.rfind(mark));
+    text = text.substr(0, text.find(mark, end));
   return text;
 }
 

@@ -53,6 +53,18 @@ Json words_json(const Report& report, const Json& shown) {
   return words;
 }
 
+/// In JSON a `<` stands in strings alone, where it may be written otherwise.
+std::string without_tags(std::string_view json) {
+  std::string safe;
+  safe.reserve(json.size() + json.size() / 64);
+  for (std::size_t tag = json.find('<'); tag != std::string_view::npos; tag = json.find('<')) {
+    safe += json.substr(0, tag);
+    safe += "\\u003c";
+    json.remove_prefix(tag + 1);
+  }
+  return safe += json;
+}
+
 }  // namespace
 
 std::string page_data(const Report& report) {
@@ -76,12 +88,7 @@ std::string page_data(const Report& report) {
             {"replay", replay_json(first)},
             {kMjcf, first.bundle.text(kMjcf)},
             {kResolved, first.bundle.text(kResolved)}};
-  const std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
-  std::string safe;
-  safe.reserve(text.size() + text.size() / 64);
-  // In JSON a `<` stands in strings alone, where it may be written so.
-  for (const char c : text) c == '<' ? (safe += "\\u003c") : (safe += c);
-  return safe;
+  return without_tags(json.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
 }  // namespace twincraft
