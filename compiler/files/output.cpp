@@ -129,8 +129,7 @@ std::string write_files(const std::vector<OutputFile>& files) {
 
 std::string try_files(const std::vector<std::string>& paths) {
   for (const std::string& path : paths) {
-    PendingFile attempt(path);  // removed again, as it is not published
-    attempt.finish();
+    const PendingFile attempt(path);  // removed again, as it is not published
     if (!attempt.error().empty()) return attempt.error();
   }
   return {};
