@@ -33,6 +33,9 @@ using MemberProgress = std::function<void(std::size_t done, std::size_t planned)
 /// and the command line's changes. Copies share it. Any number of threads may compile from one at
 /// once, each with diagnostics of its own; nothing compiled is kept.
 ///
+/// Members and variants are read where they differ from the spec, and are what reading all of them
+/// would give.
+///
 /// What is compiled holds the wanted targets and no others; it is nothing where the spec, as
 /// changed, has errors. All faults of a stage are reported; a later stage runs only after an
 /// earlier one without errors.
