@@ -10,6 +10,13 @@
 // left, the force along s and the torques in the plane, is that of the locked chain and is summed,
 // not eliminated. One chain is an effector of its mount with a law as in law.h.
 //
+// Both go from leaf to root and carry what the links so far ask for from hinge to hinge, so no link
+// needs to know where it is: fewer products than about the root, and fewer numbers to keep. An
+// in-plane inertia is its mean, which no turning changes, and a rest that turns by twice the angle.
+// In the gyroscopic torque of a link, ThetaDot G w + J nu w + nu perp(G omega) with w = omega x s
+// = -perp(omega), the means of G leave -omega_s mean w, and the rests, for which G w = perp(G
+// omega), (nu + ThetaDot) perp(rest omega).
+//
 // In-plane vectors are (x, z). Turning by Theta about s: (c x + s z, -s x + c z); s cross v is
 // perp(v) = (v_z, -v_x). Angles and rates of links are absolute in the mount: Theta, ThetaDot;
 // nu = omega_s + ThetaDot.
@@ -63,14 +70,18 @@ struct Plane {
   S xx{}, zz{}, xz{};
 
   Vec2<S> operator*(const Vec2<S>& v) const { return {xx * v.x + xz * v.z, xz * v.x + zz * v.z}; }
-  Plane turned(const S& c, const S& s) const {
-    const S mean = S(0.5) * (xx + zz), half = S(0.5) * (xx - zz);
-    const S c2 = c * c - s * s, s2 = (c + c) * s;
-    const S turned_half = c2 * half + s2 * xz;
-    return {mean + turned_half, mean - turned_half, c2 * xz - s2 * half};
-  }
   Sym<S> in_axes(const Vec<S>& x, const Vec<S>& z) const {
     return Sym<S>::parallel(xx * x + xz * z, x) + Sym<S>::parallel(xz * x + zz * z, z);
+  }
+};
+
+/// What is left of a symmetric 2x2 without its mean: [half xz; xz -half].
+template <class S>
+struct Deviator {
+  S half{}, xz{};
+
+  Vec2<S> operator*(const Vec2<S>& v) const {
+    return {half * v.x + xz * v.z, xz * v.x - half * v.z};
   }
 };
 
@@ -86,6 +97,7 @@ class Chain {
     links_.resize(first.links.size());
     motions_.resize(first.links.size());
     recoveries_.resize(first.links.size());
+    pulls_.resize(first.links.size());
     for (std::size_t l = 0; l < lanes.size(); ++l) set(l, *lanes[l], layout);
   }
 
@@ -111,47 +123,33 @@ class Chain {
     a_bias_ = cross(mount.omega, cross(mount.omega, r_HP_));
     const Vec<S> omega_C = transposed(dcm_WC_, mount.omega);
     omega_ = in_plane(omega_C);
-    W_ = {-(omega_.z * omega_.z), -(omega_.x * omega_.x), omega_.x * omega_.z};
-    S theta(0.0), theta_dot(0.0), a_s(0.0);
-    Vec2<S> r;
-    for (std::size_t i = 0; i < links_.size(); ++i) {
+    omega_s_ = omega_C.y;
+    S theta(0.0), theta_dot(0.0);
+    const auto angle_of = [&](std::size_t i) {
       const Link& link = links_[i];
-      Motion& motion = motions_[i];
       const S q = gather<H, S>(state, link.position);
       const S q_dot = gather<H, S>(state, link.rate);
-      motion.u = link.effort - link.stiffness * (q - link.rest) - link.damping * q_dot;
+      motions_[i].u = link.effort - link.stiffness * (q - link.rest) - link.damping * q_dot;
       theta += q;
       theta_dot += q_dot;
-      const auto [s, c] = sine_cosine(theta);
-      motion.cosine = c;
-      motion.sine = s;
-      motion.theta_dot = theta_dot;
-      motion.nu = omega_C.y + theta_dot;
-      motion.b = turned(link.first_moment, c, s);
-      motion.d = turned(link.next, c, s);
-      motion.G = link.G.turned(c, s);
-      motion.d_bias = W_ * motion.d - (motion.nu * motion.nu) * motion.d;
-      motion.r = r;
-      motion.a_s = a_s;
-      r += motion.d;
-      a_s += (motion.nu + theta_dot) * dot(omega_, motion.d);
-    }
+      motions_[i].theta_dot = theta_dot;
+      return theta;
+    };
+    for (std::size_t i = 0; i < links_.size(); ++i) motions_[i].turn = sine_cosine(angle_of(i));
   }
 
   Moment<S> moment() const {
-    Vec2<S> sum;
-    S mass(0.0);
-    for (std::size_t i = 0; i < links_.size(); ++i) {
-      sum += motions_[i].b + links_[i].mass * motions_[i].r;
-      mass += links_[i].mass;
+    Vec2<S> sum;  // about the hinge of the link at hand
+    for (std::size_t i = links_.size(); i-- > 0;) {
+      const Link& link = links_[i];
+      sum += turned(link.first_moment + link.mass_beyond * link.next, motions_[i].turn);
     }
-    return {mass, mass * r_HB_ + (sum.x * dcm_WC_.x + sum.z * dcm_WC_.z)};
+    return {mass_, mass_ * r_HB_ + (sum.x * dcm_WC_.x + sum.z * dcm_WC_.z)};
   }
 
   /// Add the chain's law, about the origin of its mount, to the mount's.
   void contribute(const Field<S>* field, Law<S>& mount) {
-    Law<S> law =
-        field == nullptr ? law_about_root([](std::size_t) { return Pull<S>{}; }) : law_in(*field);
+    Law<S> law = law_about_root(field);
     law.n0 += law.H * a_bias_;
     law.f0 += law.M * a_bias_;
     mount.add_moved(law, r_HP_);
@@ -163,57 +161,126 @@ class Chain {
     Vec2<S> at{dot(dcm_WC_.x, a_H), dot(dcm_WC_.z, a_H)};
     S before = dot(dcm_WC_.y, omega_dot);
     for (std::size_t i = 0; i < links_.size(); ++i) {
-      const S alpha = recoveries_[i].gain - dot(recoveries_[i].gain_f, at);
+      const Recovery& r = recoveries_[i];
+      const S alpha = r.gain - dot(r.gain_f, at);
       scatter<H, S>(alpha - before, rate, links_[i].rate);
-      at += alpha * perp(motions_[i].d) + motions_[i].d_bias;
+      at += alpha * perp(r.next) + r.bias;
       before = alpha;
     }
   }
 
  private:
   struct Link {
-    S mass{};
-    Vec2<S> first_moment, next;
-    Plane<S> G;
+    S mass{}, mass_beyond{};     // of the link, of those after it
+    Vec2<S> first_moment, next;  // at angle zero
+    Deviator<S> G;               // likewise
     S J{};
     S stiffness{}, damping{}, rest{}, effort{};
     Places<H, S> position{}, rate{};
     std::vector<ElementNow<S>> elements;
   };
   struct Motion {
-    S cosine, sine;  // of Theta
-    S nu, theta_dot;
-    S u;             // torque on the joint
-    Vec2<S> b, d;    // first moment and next hinge, turned
-    Vec2<S> r;       // [m] hinge from the root hinge
-    Vec2<S> d_bias;  // in-plane bias acceleration across d
-    S a_s;           // bias acceleration of the hinge along s
-    Plane<S> G;
+    SineCosine<S> turn;  // of Theta
+    S theta_dot;
+    S u;  // torque on the joint
   };
-  /// alpha = gain - gain_f . a
+  /// alpha = gain - gain_f . a, and a of the next hinge is a + alpha perp(next) + bias
   struct Recovery {
     S gain;
     Vec2<S> gain_f;
+    Vec2<S> next, bias;
   };
 
-  static Vec2<S> turned(const Vec2<S>& v, const S& c, const S& s) {
-    return {c * v.x + s * v.z, c * v.z - s * v.x};
+  /// What the locked chain from a link on asks for against the plane, about that link's hinge and
+  /// as if that did not accelerate. Its mass and the mean of its inertia are constants.
+  struct Locked {
+    Vec2<S> moment;     // [kg m]
+    Deviator<S> G;      // [kg m^2] sum over the links, each about its own hinge
+    Plane<S> apart;     // [kg m^2] what the distance of hinges adds
+    S f_s{};            // [N] bias force along s
+    Vec2<S> lever;      // [N m] its moment: the torque is -perp(lever)
+    Deviator<S> rates;  // [kg m^2/s] sum of (nu + ThetaDot) G
+    S spin{};           // [kg m^2/s] sum of ThetaDot J
+    Vec2<S> pulled;     // [N m] in-plane torque of pulls
+
+    /// From the next hinge to the link's own, d away, which makes the next one and all the mass
+    /// beyond accelerate by a_s along s.
+    void reach(const S& mass, const Vec2<S>& d, const S& a_s) {
+      const Vec2<S> there = moment + mass * d;
+      const Vec2<S> both = moment + there;
+      lever += a_s * there + f_s * d;
+      f_s += mass * a_s;
+      apart.xx += d.z * both.z;
+      apart.zz += d.x * both.x;
+      apart.xz -= d.x * moment.z + d.z * there.x;
+      moment = there;
+    }
+    /// A link's own part: its first moment, its inertia, rate = nu + ThetaDot.
+    void add(const Vec2<S>& b, const Deviator<S>& own, const S& rate, const S& f) {
+      moment += b;
+      f_s += f;
+      G.half += own.half;
+      G.xz += own.xz;
+      rates.half += rate * own.half;
+      rates.xz += rate * own.xz;
+    }
+  };
+
+  /// What the free chain from a link on asks for in the plane about that link's hinge:
+  /// f = h alpha + M a + f,  tau = J alpha + h.a + tau. Eliminated, it is f = M a + f.
+  struct Free {
+    Plane<S> M;
+    Vec2<S> f, h;
+    S J{}, tau{};
+
+    /// From the next hinge to the link's own, d away.
+    void reach(const Vec2<S>& d, const Vec2<S>& bias) {
+      const Vec2<S> across = perp(d);
+      f += M * bias;
+      h = M * across;
+      J = dot(across, h);
+      tau += dot(across, f);
+    }
+    /// By the torque u on the joint, which the link before then feels.
+    void eliminate(const S& mass, const S& u, Recovery& recovery) {
+      const S inverse = S(1.0) / J;
+      recovery.gain = inverse * (u - tau);
+      recovery.gain_f = inverse * h;
+      M.xx += mass - h.x * recovery.gain_f.x;
+      M.zz += mass - h.z * recovery.gain_f.z;
+      M.xz -= h.x * recovery.gain_f.z;
+      f += recovery.gain * h;
+      tau = u;
+    }
+  };
+
+  static Vec2<S> turned(const Vec2<S>& v, const SineCosine<S>& by) {
+    return {by.cosine * v.x + by.sine * v.z, by.cosine * v.z - by.sine * v.x};
+  }
+  static Deviator<S> turned(const Deviator<S>& G, const SineCosine<S>& by) {
+    const S twice = by.sine + by.sine;
+    const S sine = twice * by.cosine, cosine = S(1.0) - twice * by.sine;  // of the double angle
+    return {cosine * G.half + sine * G.xz, cosine * G.xz - sine * G.half};
   }
 
   void set(std::size_t l, const ChainPlan& plan, const Layout& layout) {
     set_lane(dcm_PC_, l, plan.dcm_PC);
     set_lane(r_HP_P_, l, plan.r_HP_P);
-    for (std::size_t i = 0; i < links_.size(); ++i) {
+    double mass = 0.0, J = 0.0, mean = 0.0;
+    for (std::size_t i = links_.size(); i-- > 0;) {
       const PlanarLinkPlan& from = plan.links[i];
       Link& link = links_[i];
       set_lane(link.mass, l, from.mass);
+      set_lane(link.mass_beyond, l, mass);
+      mass += from.mass;
       set_lane(link.first_moment.x, l, from.first_moment[0]);
       set_lane(link.first_moment.z, l, from.first_moment[1]);
       set_lane(link.next.x, l, from.next[0]);
       set_lane(link.next.z, l, from.next[1]);
-      set_lane(link.G.xx, l, from.G[0]);
-      set_lane(link.G.zz, l, from.G[1]);
+      mean += 0.5 * (from.G[0] + from.G[1]);
+      set_lane(link.G.half, l, 0.5 * (from.G[0] - from.G[1]));
       set_lane(link.G.xz, l, from.G[2]);
+      J += from.J;
       set_lane(link.J, l, from.J);
       set_lane(link.stiffness, l, from.stiffness);
       set_lane(link.damping, l, from.damping);
@@ -224,86 +291,97 @@ class Chain {
       for (std::size_t e = 0; e < from.elements.size(); ++e)
         link.elements[e].set(l, from.elements[e]);
     }
+    set_lane(mass_, l, mass);
+    set_lane(mean_, l, mean);
+    set_lane(J_, l, J);
   }
 
-  Law<S> law_in(const Field<S>& field) {
+  /// The force and torque on each link about its own hinge, in chain axes.
+  void pull(const Field<S>& field) {
     const Field<S> field_C = field.in_axes(dcm_WC_);
     const Vec<S> r_HB_C = transposed(dcm_WC_, r_HB_);
-    return law_about_root([&](std::size_t i) {
-      const Motion& m = motions_[i];
+    Vec2<S> r;  // [m] hinge from the root hinge
+    for (std::size_t i = 0; i < links_.size(); ++i) {
       Pull<S> sum;
       for (const ElementNow<S>& element : links_[i].elements) {
-        const Vec2<S> at = turned(in_plane(element.r_EL), m.cosine, m.sine);
+        const Vec2<S> at = turned(in_plane(element.r_EL), motions_[i].turn);
         const Vec<S> r_EH{at.x, element.r_EL.y, at.z};
-        const Vec<S> place = r_HB_C + Vec<S>{m.r.x, S(0.0), m.r.z} + r_EH;
+        const Vec<S> place = r_HB_C + Vec<S>{r.x, S(0.0), r.z} + r_EH;
         sum.add(element.mass * field_C.difference(place), r_EH);
       }
-      return sum;
-    });
+      pulls_[i] = sum;
+      r += turned(links_[i].next, motions_[i].turn);
+    }
   }
 
-  /// @param pull_on  the force and torque on a link about its own hinge, in chain axes
-  template <class PullOn>
-  Law<S> law_about_root(const PullOn& pull_on) {
-    const Vec2<S> w = Vec2<S>{} - perp(omega_);  // omega x s
-    const S ww = omega_.z * omega_.z - omega_.x * omega_.x;
-    const S product = omega_.x * omega_.z;
-    // Of the locked chain about the root hinge: mass, first moment, in-plane inertia, and biases.
-    S mass(0.0), f0_s(0.0);
-    Vec2<S> moment, n0;
-    Plane<S> G;
-    // Of the plane, about the hinge of the link at hand; what the link after it hands over.
-    Plane<S> M;
-    S J_child(0.0), tau_child(0.0);
-    Vec2<S> h_child, f_child;
+  /// The rate of the mount, as links feel it in the plane.
+  struct Turning {
+    S xx, zz, product, twice_product, difference;
 
+    explicit Turning(const Vec2<S>& omega)
+        : xx(omega.z * omega.z), zz(omega.x * omega.x), product(omega.x * omega.z) {
+      twice_product = product + product;
+      difference = xx - zz;
+    }
+    /// The part in the plane of omega x (omega x v), of a v that turns by nu in it.
+    Vec2<S> bias(const S& nu2, const Vec2<S>& v) const {
+      return {product * v.z - (xx + nu2) * v.x, product * v.x - (zz + nu2) * v.z};
+    }
+    S torque(const Deviator<S>& G) const { return G.half * twice_product + G.xz * difference; }
+  };
+
+  Law<S> law_about_root(const Field<S>* field) {
+    if (field != nullptr) pull(*field);
+    const Turning turning(omega_);
+    Locked locked;
+    Free free;
     for (std::size_t i = links_.size(); i-- > 0;) {
       const Link& link = links_[i];
       const Motion& m = motions_[i];
-      const Pull<S> pull = pull_on(i);
-
-      const S f_s = link.mass * m.a_s + (m.nu + m.theta_dot) * dot(omega_, m.b) - pull.force.y;
-      const Vec2<S> n = m.theta_dot * (m.G * w) + (link.J * m.nu) * w + m.nu * perp(m.G * omega_) -
-                        m.a_s * perp(m.b) - in_plane(pull.torque);
-      const Vec2<S> f0 = f_child + W_ * m.b - (m.nu * m.nu) * m.b - in_plane(pull.force);
-      const S tau0 = tau_child + m.G.xz * ww + (m.G.xx - m.G.zz) * product - pull.torque.y;
-      const S rb = dot(m.r, m.b);
-      mass += link.mass;
-      moment += m.b + link.mass * m.r;
-      const Vec2<S> mr = link.mass * m.r;
-      G.xx += m.G.xx + (rb - m.r.x * m.b.x) + (rb - m.r.x * m.b.x) + mr.z * m.r.z;
-      G.zz += m.G.zz + (rb - m.r.z * m.b.z) + (rb - m.r.z * m.b.z) + mr.x * m.r.x;
-      G.xz += m.G.xz - m.r.x * m.b.z - m.r.z * m.b.x - mr.x * m.r.z;
-      f0_s += f_s;
-      n0 += n - f_s * perp(m.r);
-
-      // Eliminate the joint.
-      const Vec2<S> h = h_child + perp(m.b);
-      const S inverse = S(1.0) / (J_child + link.J);
       Recovery& recovery = recoveries_[i];
-      recovery = {inverse * (m.u - tau0), inverse * h};
-      M.xx += link.mass - h.x * recovery.gain_f.x;
-      M.zz += link.mass - h.z * recovery.gain_f.z;
-      M.xz -= h.x * recovery.gain_f.z;
-      f_child = f0 + recovery.gain * h;
-      tau_child = m.u;
-      if (i == 0) break;
-      // To the hinge of the link before, d away.
-      const Motion& before = motions_[i - 1];
-      const Vec2<S> across = perp(before.d);
-      f_child += M * before.d_bias;
-      h_child = M * across;
-      J_child = dot(across, h_child);
-      tau_child += dot(across, f_child);
+      const S nu = omega_s_ + m.theta_dot, nu2 = nu * nu;
+      const S rate = nu + m.theta_dot;
+      if (i + 1 < links_.size()) {
+        recovery.next = turned(link.next, m.turn);
+        recovery.bias = turning.bias(nu2, recovery.next);
+        locked.reach(link.mass_beyond, recovery.next, rate * dot(omega_, recovery.next));
+        free.reach(recovery.next, recovery.bias);
+      }
+      const Vec2<S> b = turned(link.first_moment, m.turn);
+      const Deviator<S> G = turned(link.G, m.turn);
+      locked.add(b, G, rate, rate * dot(omega_, b));
+      locked.spin += m.theta_dot * link.J;
+      free.f += turning.bias(nu2, b);
+      free.tau += turning.torque(G);
+      if (field != nullptr) feel(pulls_[i], locked, free);
+      free.h += perp(b);
+      free.J += link.J;
+      free.eliminate(link.mass, m.u, recovery);
     }
+    return law_of(locked, free);
+  }
 
+  static void feel(const Pull<S>& pull, Locked& locked, Free& free) {
+    locked.f_s -= pull.force.y;
+    locked.pulled += in_plane(pull.torque);
+    free.f -= in_plane(pull.force);
+    free.tau -= pull.torque.y;
+  }
+
+  /// Both together, in working axes.
+  Law<S> law_of(const Locked& locked, const Free& free) const {
+    const Vec2<S> w = Vec2<S>{} - perp(omega_);  // omega x s
+    const Vec2<S> n0 = perp(locked.rates * omega_ - locked.lever) +
+                       (omega_s_ * (J_ - mean_) + locked.spin) * w - locked.pulled;
+    const Plane<S> G{mean_ + locked.G.half + locked.apart.xx,
+                     mean_ - locked.G.half + locked.apart.zz, locked.G.xz + locked.apart.xz};
     const Vec<S>&x = dcm_WC_.x, &along = dcm_WC_.y, &z = dcm_WC_.z;
-    const Vec<S> lever = moment.x * z - moment.z * x;  // S cross s
+    const Vec<S> lever = locked.moment.x * z - locked.moment.z * x;  // S cross s
     return {G.in_axes(x, z),
-            M.in_axes(x, z) + Sym<S>::parallel(mass * along, along),
+            free.M.in_axes(x, z) + Sym<S>::parallel(mass_ * along, along),
             {along.x * lever, along.y * lever, along.z * lever},
-            n0.x * x + tau_child * along + n0.z * z,
-            f_child.x * x + f0_s * along + f_child.z * z};
+            n0.x * x + free.tau * along + n0.z * z,
+            free.f.x * x + locked.f_s * along + free.f.z * z};
   }
 
   int mount_ = -1;
@@ -312,8 +390,10 @@ class Chain {
   std::vector<Link> links_;
   std::vector<Motion> motions_;
   std::vector<Recovery> recoveries_;
-  Vec2<S> omega_;  // in-plane rate of the mount
-  Plane<S> W_;     // omega omega^T - omega^2 1
+  std::vector<Pull<S>> pulls_;
+  S mass_{}, mean_{}, J_{};  // sums over all links; mean_: of (G.xx + G.zz) / 2
+  S omega_s_{};              // rate of the mount along s
+  Vec2<S> omega_;            // and in the plane
 };
 
 }  // namespace twincraft::bsm::TWINCRAFT_KERNEL
