@@ -125,17 +125,25 @@ class Chain {
     omega_ = in_plane(omega_C);
     omega_s_ = omega_C.y;
     S theta(0.0), theta_dot(0.0);
-    const auto angle_of = [&](std::size_t i) {
+    for (std::size_t i = 0; i < links_.size(); ++i) {
       const Link& link = links_[i];
+      Motion& m = motions_[i];
       const S q = gather<H, S>(state, link.position);
       const S q_dot = gather<H, S>(state, link.rate);
-      motions_[i].u = link.effort - link.stiffness * (q - link.rest) - link.damping * q_dot;
+      m.u = link.effort - link.stiffness * (q - link.rest) - link.damping * q_dot;
       theta += q;
       theta_dot += q_dot;
-      motions_[i].theta_dot = theta_dot;
-      return theta;
-    };
-    for (std::size_t i = 0; i < links_.size(); ++i) motions_[i].turn = sine_cosine(angle_of(i));
+      m.theta = theta;
+      m.theta_dot = theta_dot;
+    }
+    std::size_t i = 0;
+    if constexpr (kTakesTwoAngles<S>) {
+      for (; i + 1 < motions_.size(); i += 2) {
+        Motion &m = motions_[i], &next = motions_[i + 1];
+        put_sines_cosines(m.theta, next.theta, m.turn, next.turn);
+      }
+    }
+    for (; i < motions_.size(); ++i) motions_[i].turn = sine_cosine(motions_[i].theta);
   }
 
   Moment<S> moment() const {
@@ -181,7 +189,7 @@ class Chain {
   };
   struct Motion {
     SineCosine<S> turn;  // of Theta
-    S theta_dot;
+    S theta, theta_dot;
     S u;  // torque on the joint
   };
   /// alpha = gain - gain_f . a, and a of the next hinge is a + alpha perp(next) + bias

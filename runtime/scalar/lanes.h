@@ -53,6 +53,24 @@ SineCosine<simd::batch<double, A>> sine_cosine(const simd::batch<double, A>& ang
   return {sine, cosine};
 }
 
+/// Whether two S fit side by side where one leaves lanes idle.
+template <class S>
+inline constexpr bool kTakesTwoAngles = false;
+#if defined(__AVX2__)
+template <>
+inline constexpr bool kTakesTwoAngles<Pair> = true;
+/// Two angles in one call, no wider: not on every processor are the widest registers the fastest.
+inline void put_sines_cosines(const Pair& first, const Pair& second, SineCosine<Pair>& of_first,
+                              SineCosine<Pair>& of_second) {
+  using Both = simd::batch<double, simd::avx2>;
+  const auto [sine, cosine] = simd::sincos(Both(_mm256_set_m128d(second, first)));
+  of_first.sine = _mm256_castpd256_pd128(sine);
+  of_first.cosine = _mm256_castpd256_pd128(cosine);
+  of_second.sine = _mm256_extractf128_pd(sine, 1);
+  of_second.cosine = _mm256_extractf128_pd(cosine, 1);
+}
+#endif
+
 template <class A>
 simd::batch<double, A> root(const simd::batch<double, A>& x) {
   return simd::sqrt(x);
