@@ -155,7 +155,7 @@ TEST(Kernel, PutsAForceAtTheCenterOfMass) {
 }
 
 /// An array of unlike segments on a skew hinge, beside a slide that carries another one.
-Assembly random_arrays(std::mt19937_64& random) {
+Assembly random_arrays(std::mt19937_64& random, int segments_on_hub = 5) {
   std::uniform_real_distribution<double> uniform(0.5, 1.5);
   Assembly assembly = test::random_assembly(random, 0, 1);
   const auto add_array = [&](int mount, int segments) {
@@ -179,7 +179,7 @@ Assembly random_arrays(std::mt19937_64& random) {
       assembly.links.push_back(link);
     }
   };
-  add_array(0, 5);
+  add_array(0, segments_on_hub);
   Link slide;
   slide.parent = 0;
   slide.joint.kind = JointKind::kSlide;
@@ -208,6 +208,23 @@ TEST(Chain, EqualsTheGeneralRecursionOnRandomArrays) {
       const Eigen::VectorXd a = planar.accelerations(state, held, r_BN);
       const Eigen::VectorXd b = general.accelerations(state, held, r_BN);
       EXPECT_LT((a - b).norm(), 1e-13 * b.norm()) << "trial " << trial;
+    }
+  }
+}
+
+TEST(Chain, OfAnyLengthHasUnlikeLinksAndEqualsTheGeneralRecursion) {
+  std::mt19937_64 random(14);
+  for (const int segments : {1, 2, 3, 4, 7, 8, 15, 16, 32, 64}) {
+    const Assembly assembly = random_arrays(random, segments);
+    const OracleState state = test::random_state(random, assembly);
+    const bsm::HeldInputs held = inputs_of(assembly);
+    for (const bsm::InstructionSet set : bsm::instruction_sets()) {
+      KernelOf planar(assembly, ChainPath::kPlanar, {}, set);
+      KernelOf general(assembly, ChainPath::kGeneral, {}, set);
+      ASSERT_EQ(planar.plan().planar_links(), static_cast<std::size_t>(segments) + 3u);
+      const Eigen::VectorXd a = planar.accelerations(state, held);
+      const Eigen::VectorXd b = general.accelerations(state, held);
+      EXPECT_LT((a - b).norm(), 1e-12 * b.norm()) << segments << ", " << bsm::name_of(set);
     }
   }
 }
