@@ -22,7 +22,8 @@ struct Field {
   Field(const S& mu_, const Vec<S>& r_, bool gradient) : mu(mu_), r(r_), has_gradient(gradient) {
     const S r2 = dot(r, r);
     inverse_r2 = S(1.0) / r2;
-    strength = -mu / (r2 * root(r2));
+    // The root and the quotient do not wait for each other.
+    strength = -(mu * inverse_r2 * inverse_r2) * root(r2);
   }
 
   /// g at the hub's origin [m/s^2].
