@@ -292,11 +292,11 @@ BookRates MujocoEngine::book_rates(std::span<const double> state, const Matrix3d
                                    const Found& found) const {
   const Vector3d r_BN_W = dcm_NW.transpose() * Input(state.data() + StateLayout::position());
   const Vector3d v_BN_W = dcm_NW.transpose() * Input(state.data() + StateLayout::velocity());
-  const BodyCenter center = center_of(*model_, *data_);
   const double inner_power = joint_power();
-  BookRates rates{.power = inner_power,
-                  .force_N = center.mass * found.fall_N,  // what falls does so at C
-                  .own_power = inner_power};
+  BookRates rates{.power = inner_power, .own_power = inner_power};
+  if (machine_->law == GravityLaw::kNone && !acts() && propellant_.is_idle()) return rates;
+  const BodyCenter center = center_of(*model_, *data_);
+  rates.force_N = center.mass * found.fall_N;  // what falls does so at C
   if (acts()) {
     const WrenchSums sums = sum_up(wrenches_, poses_, link_rates_);
     const Vector3d& force_W = sums.all.force_W;

@@ -64,15 +64,20 @@ MotionSums sum_motion(const mjModel& model, const mjData& data, const Vector3d& 
   return sums;
 }
 
+// MuJoCo has the mass and first moment of every body about its reference point at hand: the last
+// four numbers of cinert. That point is the centre of mass of the tree before it drained.
 BodyCenter center_of(const mjModel& model, const mjData& data) {
   BodyCenter center;
   for (int body = kHubBody; body < model.nbody; ++body) {
-    const double mass = model.body_mass[body];
+    const Point moment(data.cinert + 10 * body + 6);
+    const double mass = data.cinert[10 * body + 9];
+    const Point omega(data.cvel + 6 * body), v(data.cvel + 6 * body + 3);
     center.mass += mass;
-    center.r_CB_W += mass * Point(data.xipos + 3 * body);
-    center.v_CB_W += mass * center_velocity(data, body);
+    center.r_CB_W += moment;
+    center.v_CB_W += mass * v + omega.cross(moment);
   }
   center.r_CB_W /= center.mass;
+  center.r_CB_W += Point(data.subtree_com + 3 * kHubBody) - Point(data.xpos + 3 * kHubBody);
   center.v_CB_W /= center.mass;
   return center;
 }

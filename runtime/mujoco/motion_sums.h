@@ -31,6 +31,7 @@ struct BodyCenter {
   Vector3d r_CB_W = Vector3d::Zero();  // [m] from the hub origin
   Vector3d v_CB_W = Vector3d::Zero();  // [m/s]
 };
+/// @pre as of sum_motion()
 BodyCenter center_of(const mjModel& model, const mjData& data);
 
 /// What leaves the books because bodies lose mass: their rates at fixed motion.
