@@ -27,6 +27,7 @@
 #include <vector>
 
 #include "runtime/bsm/law.h"
+#include "runtime/bsm/outside.h"
 #include "runtime/bsm/parts.h"
 #include "runtime/bsm/plan.h"
 
@@ -152,7 +153,7 @@ class Chain {
       const Link& link = links_[i];
       sum += turned(link.first_moment + link.mass_beyond * link.next, motions_[i].turn);
     }
-    return {mass_, mass_ * r_HB_ + (sum.x * dcm_WC_.x + sum.z * dcm_WC_.z)};
+    return {mass_, mass_ * r_HB_ + in_axes(sum)};
   }
 
   /// Add the chain's law, about the origin of its mount, to the mount's.
@@ -175,6 +176,45 @@ class Chain {
       at += alpha * perp(r.next) + r.bias;
       before = alpha;
     }
+  }
+
+  // For the books, as of Limb: from what the last evaluation left.
+  S inner_power(const Number<H>* state) const {
+    S power(0.0);
+    for (const Link& link : links_) {
+      const S q_dot = gather<H, S>(state, link.rate);
+      power += (link.effort - link.damping * q_dot) * q_dot;
+    }
+    return power;
+  }
+  Vec<S> momentum(const MountMotion<S>& mount) const {
+    Vec2<S> moment, in_mount;
+    for (std::size_t i = 0; i < links_.size(); ++i) {
+      const Link& link = links_[i];
+      const Vec2<S> part =
+          turned(link.first_moment + link.mass_beyond * link.next, motions_[i].turn);
+      moment += part;
+      in_mount += motions_[i].theta_dot * perp(part);
+    }
+    return mass_ * root_velocity(mount) + cross(mount.omega, in_axes(moment)) + in_axes(in_mount);
+  }
+  void add_gravity(const MountMotion<S>& mount, Outside<S>& outside) const {
+    Pull<S> sum;  // chain axes, about the root hinge
+    S power_in_mount(0.0);
+    Vec2<S> r, v;  // of a hinge from the root hinge, and in the mount
+    for (std::size_t i = 0; i < links_.size(); ++i) {
+      const Pull<S>& pull = pulls_[i];
+      const S& theta_dot = motions_[i].theta_dot;
+      sum.torque += pull.torque;
+      sum.add(pull.force, {r.x, S(0.0), r.z});
+      power_in_mount += dot(v, in_plane(pull.force)) + theta_dot * pull.torque.y;
+      const Vec2<S> next = turned(links_[i].next, motions_[i].turn);
+      r += next;
+      v += theta_dot * perp(next);
+    }
+    outside.add({dcm_WC_ * sum.force, dcm_WC_ * sum.torque},
+                {dcm_WC_, mount.omega, r_HB_, root_velocity(mount)});
+    outside.power += power_in_mount;
   }
 
  private:
@@ -303,6 +343,11 @@ class Chain {
     set_lane(mean_, l, mean);
     set_lane(J_, l, J);
   }
+
+  Vec<S> root_velocity(const MountMotion<S>& mount) const {
+    return mount.v_LB + cross(mount.omega, r_HP_);
+  }
+  Vec<S> in_axes(const Vec2<S>& v) const { return v.x * dcm_WC_.x + v.z * dcm_WC_.z; }
 
   /// The force and torque on each link about its own hinge, in chain axes.
   void pull(const Field<S>& field) {

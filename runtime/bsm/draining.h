@@ -26,6 +26,7 @@ class Tanks {
       set_lane(tank.spent, l, from.spent);
       set_lane(tank.since, l, from.since);
       set_lane(tank.flow, l, from.flow);
+      set_lane(tank.share_rate, l, -from.flow / from.full);
       flow_ = flow_ || !vanishes(from.flow);
     }
   }
@@ -44,11 +45,20 @@ class Tanks {
       return from_lanes<S>([&](std::size_t l) { return tanks_[index(tanks[l])].share; });
     }
   }
+  /// How fast that changes under the held flow [1/s].
+  template <class S>
+  S share_rate(const Places<H, S>& tanks) const {
+    if constexpr (kLimbs<H, S> == 1) {
+      return tanks_[index(tanks[0])].share_rate;
+    } else {
+      return from_lanes<S>([&](std::size_t l) { return tanks_[index(tanks[l])].share_rate; });
+    }
+  }
 
  private:
   struct Tank {
     H full = H(1.0), spent{}, since{}, flow{};
-    H share = H(1.0);
+    H share = H(1.0), share_rate{};
 
     /// In the order of Drain::share.
     H share_at(const H& time) const {
@@ -123,6 +133,22 @@ class LinkDrain {
     LinkMass<S> sums = fixed_;
     for (const auto& part : parts_) sums.add(tanks.template share<S>(part.tank), part.full);
     return sums;
+  }
+  /// How fast mass() changes [kg/s], [kg m/s], [kg m^2/s].
+  LinkMass<S> mass_rate(const Tanks<H>& tanks) const {
+    LinkMass<S> sums;
+    for (const auto& part : parts_) sums.add(tanks.template share_rate<S>(part.tank), part.full);
+    return sums;
+  }
+  /// Of it the mass alone.
+  S point_rate(const Tanks<H>& tanks) const {
+    S sum{};
+    for (const auto& part : parts_) sum += tanks.template share_rate<S>(part.tank) * part.full.mass;
+    return sum;
+  }
+  /// How fast an element loses mass [kg/s].
+  S element_rate(std::size_t e, const Tanks<H>& tanks) const {
+    return tanks.template share_rate<S>(elements_[e].tank) * elements_[e].full.mass;
   }
   /// @param elements  those of the link
   void put_elements(const Tanks<H>& tanks, std::vector<ElementNow<S>>& elements) const {

@@ -8,7 +8,6 @@
 #include "runtime/bsm/kernel.h"
 #include "runtime/bsm/motion.h"
 #include "runtime/bsm/point_mass_engine.h"
-#include "runtime/forces/link_forces.h"
 #include "runtime/forces/propellant_ledger.h"
 
 namespace twincraft {
@@ -57,11 +56,9 @@ class BsmEngine final : public Engine {
         held_(HeldInputs::none(machine_->assembly)),
         propellant_(machine_->propellant),
         forces_(machine_->forces),
-        link_forces_(machine_->plan.forces, machine_->start),
         tree_(machine_->plan.tree),
         elements_(machine_->elements),
-        motion_(at_rest(tree_)),
-        wrenches_(tree_.links.size()) {
+        motion_(at_rest(tree_)) {
     BsmEngine::hold(machine_->start);
   }
 
@@ -77,7 +74,6 @@ class BsmEngine final : public Engine {
     held_.set(inputs, machine_->loads);
     forces_.hold(inputs);
     propellant_.hold(inputs);
-    link_forces_.hold(inputs);
     const HeldInputs* held = &held_;
     kernel_->hold({&held, 1});
     drained_to_ = std::numeric_limits<double>::quiet_NaN();
@@ -85,8 +81,8 @@ class BsmEngine final : public Engine {
 
   void derivative(double time, std::span<const double> state, std::span<double> rate,
                   BookRates* books) override {
-    if (books != nullptr) return evaluate_and_book(time, state, rate, *books);
     kernel_->derivative(time, state.data(), rate.data());
+    if (books != nullptr) kernel_->books(state.data(), {books, 1});
   }
 
   void finish_step(std::span<double> state) override { kernel_->finish_step(state.data()); }
@@ -97,7 +93,7 @@ class BsmEngine final : public Engine {
     assign(x, seen);
     seen.time = time;
     move_links(tree_, x.joint_position, x.joint_rate, x.omega_BN_B, motion_);
-    fill_books(sum_up(motion_, elements_, tree_, x.wheel_rate), x.dcm_NB, seen);
+    fill_books(sum_up(motion_, elements_, tree_, x.wheel_rate, moving_), x.dcm_NB, seen);
     seen.springs = spring_energy(tree_, x.joint_position);
     seen.potential = seen.springs + forces_.potential(x.r_BN_B(), motion_.poses);
   }
@@ -140,79 +136,12 @@ class BsmEngine final : public Engine {
     Vector3d v_BN_B() const { return dcm_NB.transpose() * v_BN_N; }
   };
 
-  // Apart from derivative(), which without it is a jump into the kernel.
-  [[gnu::noinline]] void evaluate_and_book(double time, std::span<const double> state,
-                                           std::span<double> rate, BookRates& books) {
-    kernel_->derivative(time, state.data(), rate.data());
-    books = book_rates(time, state);
-  }
-
-  BookRates book_rates(double time, std::span<const double> state) {
-    drain(time);
-    const State x = read(state);
-    const double inner_power = joint_power(tree_, x.joint_position, x.joint_rate, held_.effort) +
-                               motor_power(x.wheel_rate, held_.motor_torque);
-    BookRates rates{.power = inner_power, .own_power = inner_power};
-    if (!acts() && !forces_.falls_as_a_whole() && propellant_.is_idle()) {
-      rates.force_N = machine_->plan.mass() * forces_.fall(x.r_BN_N, x.dcm_NB, motion_.poses);
-      return rates;
-    }
-    move_links(tree_, x.joint_position, x.joint_rate, x.omega_BN_B, motion_);
-    const Center center = center_of(tree_, motion_);
-    rates.force_N = center.mass * forces_.fall(x.r_BN_N, x.dcm_NB, motion_.poses);
-    if (acts()) add_forces(time, x, center, rates);
-    if (!propellant_.is_idle()) add_leaving(x, center, rates);
-    return rates;
-  }
-
-  /// Something does, on some link.
-  bool acts() const { return !forces_.is_idle() || link_forces_.acts(); }
-
-  void add_forces(double time, const State& x, const Center& center, BookRates& rates) {
-    if (forces_.has_loads_alone() && !link_forces_.acts()) {
-      const Work work = forces_.work_of_loads(motion_.poses, motion_.rates);
-      const Wrench all{work.force_W, work.torque_PntB_W};
-      return add_sums(x, center, work, {all, work.power}, rates);
-    }
-    if (forces_.is_idle()) std::ranges::fill(wrenches_, Wrench{});
-    Work work = forces_.apply(x.r_BN_B(), motion_.poses, motion_.rates, wrenches_);
-    if (link_forces_.acts())
-      work += link_forces_.add({time, x.r_BN_N, x.v_BN_N, x.dcm_NB}, motion_.poses, motion_.rates,
-                               wrenches_);
-    add_sums(x, center, work, twincraft::sum_up(wrenches_, motion_.poses, motion_.rates), rates);
-  }
-
-  /// @param work  of the part without a potential  @param sums  of all wrenches
-  static void add_sums(const State& x, const Center& center, const Work& work,
-                       const WrenchSums& sums, BookRates& rates) {
-    const Vector3d& force_B = sums.all.force_W;
-    rates.power += work.power + work.force_W.dot(x.v_BN_B());
-    rates.own_power += sums.power - force_B.dot(center.v_CB_B);
-    rates.force_N += x.dcm_NB * force_B;
-    rates.torque_PntC_N += x.dcm_NB * (sums.all.torque_PntB_W - center.r_CB_B.cross(force_B));
-  }
-
-  /// Propellant takes its own energy and momentum along.
-  void add_leaving(const State& x, const Center& center, BookRates& rates) const {
-    const std::span<const double> share_rates = propellant_.share_rates();
-    const Vector3d v_BN_B = x.v_BN_B();
-    const Leaving leaving = sum_up_leaving(motion_, tree_, share_rates, center);
-    rates.power += leaving.kinetic + leaving.momentum_B.dot(v_BN_B) +
-                   0.5 * leaving.mass * v_BN_B.squaredNorm() +
-                   forces_.potential_rate(x.r_BN_B(), motion_.poses, share_rates);
-    rates.own_power += leaving.kinetic - leaving.momentum_B.dot(center.v_CB_B) +
-                       0.5 * leaving.mass * center.v_CB_B.squaredNorm();
-    rates.force_N += x.dcm_NB * leaving.momentum_B + leaving.mass * x.v_BN_N;
-    rates.torque_PntC_N += x.dcm_NB * leaving.H_PntC_B;
-  }
-
   State read(std::span<const double> state) const {
     const UnpackedState x = unpack(state, layout());
     return {x, x.q_BN.toRotationMatrix()};
   }
 
-  /// Let the masses of observations and books be those that the tanks leave; the kernel has its
-  /// own.
+  /// Let the masses of observations be those that the tanks leave; the kernel has its own.
   void drain(double time) {
     if (propellant_.is_idle() || time == drained_to_) return;
     drained_to_ = time;
@@ -226,15 +155,14 @@ class BsmEngine final : public Engine {
   InstructionSet set_;
   std::unique_ptr<Kernel> kernel_;
   HeldInputs held_;
-  // For observations and books; the kernel has its own forces and masses.
+  // For observations; the kernel has its own forces and masses.
   PropellantLedger propellant_;
   ForceModel forces_;
-  LinkForces link_forces_;
   Tree tree_;                // with the masses at drained_to_
   Elements elements_;        // so too
   double drained_to_ = 0.0;  // [s] NaN: at no time
   Motion motion_;
-  std::vector<Wrench> wrenches_;
+  std::vector<MovingElement> moving_;
 };
 
 }  // namespace

@@ -51,6 +51,7 @@ struct HeldInputsIn {
   std::vector<Vector> force_L, torque_L;  // [N], [N m]
   std::vector<Vector> force_at_center_L;  // [N] the same, but at the system centre of mass
   bool acts_at_center = false;
+  bool acts_on_hub = false, acts_on_limbs = false;  // a load, on the hub or on another link
   InputsIn<N> inputs;  // all of them, for tanks and the forces that follow the motion of links
 
   static HeldInputsIn none(const Assembly& assembly) {
@@ -60,6 +61,8 @@ struct HeldInputsIn {
             nothing,
             nothing,
             nothing,
+            false,
+            false,
             false,
             {}};
   }
@@ -77,12 +80,19 @@ void HeldInputsIn<N>::set(const InputsIn<N>& now, std::span<const Load> loads) {
   std::copy_n(inputs.u.begin() + at.motor_torque(0), motor_torque.size(), motor_torque.begin());
   for (std::vector<Vector>* all : {&force_L, &torque_L, &force_at_center_L})
     std::ranges::fill(*all, Vector(N(0.0), N(0.0), N(0.0)));
-  acts_at_center = false;
+  acts_at_center = acts_on_hub = acts_on_limbs = false;
   for (std::size_t i = 0; i < loads.size(); ++i) {
     const Load& load = loads[i];
     const auto link = static_cast<std::size_t>(load.link);
     const Vector force = inputs.vector(at.force(static_cast<int>(i)));
-    torque_L[link] += inputs.vector(at.torque(static_cast<int>(i)));
+    const Vector torque = inputs.vector(at.torque(static_cast<int>(i)));
+    bool& acts = link == 0 ? acts_on_hub : acts_on_limbs;
+    if constexpr (std::same_as<N, double>) {
+      acts = acts || !force.isZero(0.0) || !torque.isZero(0.0);
+    } else {
+      acts = true;  // it may be another number yet
+    }
+    torque_L[link] += torque;
     if (load.r_FL_L) {
       const Vector r(N(load.r_FL_L->x()), N(load.r_FL_L->y()), N(load.r_FL_L->z()));
       force_L[link] += force;

@@ -10,6 +10,7 @@
 
 #include "runtime/bsm/plan.h"
 #include "runtime/bsm/processor.h"
+#include "runtime/engine/observation.h"
 
 namespace twincraft::bsm {
 
@@ -25,6 +26,8 @@ class Kernel {
   /// rate = d(state)/dt at `time` [s], laid out as runtime/engine/state.h says. Tanks are as full
   /// as they are then, under the flows that are held.
   virtual void derivative(double time, const double* state, double* rate) = 0;
+  /// What changes the books, one per lane. @pre derivative() has last been asked at this state
+  virtual void books(const double* state, std::span<BookRates> rates) = 0;
   /// MRP shadow switch or quaternion normalisation, in place.
   virtual void finish_step(double* state) const = 0;
   /// The hub's equation [A B; C D] (a, omegaDot) = (vT, vR) of the last derivative() of lane 0, as

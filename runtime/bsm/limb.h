@@ -8,6 +8,7 @@
 #include "runtime/bsm/chain.h"
 #include "runtime/bsm/draining.h"
 #include "runtime/bsm/law.h"
+#include "runtime/bsm/outside.h"
 #include "runtime/bsm/parts.h"
 #include "runtime/bsm/plan.h"
 #include "runtime/bsm/rotor.h"
@@ -137,6 +138,77 @@ class Limb {
     }
   }
 
+  // For the books, after a derivative at the same state.
+
+  /// Of efforts, motors and dampers [W].
+  S inner_power(const Number<H>* state) const {
+    S power(0.0);
+    for (std::size_t i = 0; i < links_.size(); ++i) {
+      const Link& link = links_[i];
+      const S& q_dot = motions_[i].q_dot;
+      power += (link.effort - damping(link) * q_dot) * q_dot;
+      for (const RotorOn<H, S>& rotor : link.rotors) power += rotor.power(state);
+    }
+    for (const Chain<H, S>& chain : chains_) power += chain.inner_power(state);
+    return power;
+  }
+  /// The velocities that move() leaves out. All that follows needs them.
+  void trace(const Number<H>*, const Vec<S>&) {
+    for (std::size_t i = 0; i < links_.size(); ++i) set_velocity(i);
+  }
+  Vec<S> momentum() const {
+    Vec<S> sum;
+    for (std::size_t i = 0; i < links_.size(); ++i) {
+      const Motion& m = motions_[i];
+      sum += links_[i].mass.mass * m.at.v_LB + cross(m.at.omega, m.moment);
+    }
+    for (const Chain<H, S>& chain : chains_) sum += chain.momentum(mount(chain.mount()));
+    return sum;
+  }
+  /// What is held, and what follows the motion. @param r_CB  as of contribute()
+  Outside<S> loads(const Vec<S>* r_CB) const {
+    Outside<S> outside;
+    for (std::size_t i = 0; i < links_.size(); ++i) {
+      const MountMotion<S>& at = motions_[i].at;
+      Pull<S> sum{at.dcm_WL * links_[i].held.force, at.dcm_WL * links_[i].held.torque};
+      if (is_watched_) sum.add(motions_[i].pushed);
+      if (r_CB != nullptr) sum.add(at.dcm_WL * links_[i].held_at_center, *r_CB - at.r_LB);
+      outside.add(sum, at);
+    }
+    return outside;
+  }
+  Outside<S> gravity(const Field<S>& field) const {
+    Outside<S> outside;
+    for (std::size_t i = 0; i < links_.size(); ++i) {
+      const MountMotion<S>& at = motions_[i].at;
+      for (const ElementNow<S>& element : links_[i].elements) {
+        const Vec<S> r_EL = at.dcm_WL * element.r_EL;
+        const Vec<S> place = at.r_LB + r_EL;
+        Pull<S> pull;
+        pull.add(element.mass * field.difference(place), r_EL);
+        outside.add(pull, at);
+        if (field.has_gradient)
+          outside.add_turn(field.gradient_torque(place, element.I.turned(at.dcm_WL)), at);
+      }
+    }
+    for (const Chain<H, S>& chain : chains_)
+      chain.add_gravity(mount(chain.mount()), outside);
+    return outside;
+  }
+  /// @param field  null: what is lost has no potential
+  Leaving<S> leaving(const Tanks<H>& tanks, const Field<S>* field) const {
+    Leaving<S> leaving;
+    for (const DrainingLink& draining : draining_) {
+      const MountMotion<S>& at = motions_[draining.link].at;
+      leaving.add(draining.drain.mass_rate(tanks), at);
+      const std::vector<ElementNow<S>>& elements = links_[draining.link].elements;
+      for (std::size_t e = 0; field != nullptr && e < elements.size(); ++e)
+        leaving.lift(draining.drain.element_rate(e, tanks), at.r_LB + at.dcm_WL * elements[e].r_EL,
+                     *field);
+    }
+    return leaving;
+  }
+
  private:
   struct Link {
     int parent = -1;
@@ -221,6 +293,13 @@ class Limb {
     }
   }
 
+  void set_velocity(std::size_t i) {
+    Motion& m = motions_[i];
+    const MountMotion<S>& parent = mount(links_[i].parent);
+    m.at.v_LB = parent.v_LB + cross(parent.omega, m.r_HP);
+    if (links_[i].slides) m.at.v_LB += m.q_dot * m.axis;
+  }
+
   void move_link(std::size_t i, const Number<H>* state) {
     const Link& link = links_[i];
     Motion& m = motions_[i];
@@ -250,14 +329,13 @@ class Limb {
     }
     m.at.dcm_WL = on_hub ? dcm_PL : parent.dcm_WL * dcm_PL;
     m.at.r_LB = parent.r_LB + m.r_HP;
-    if (is_watched_) {
-      m.at.v_LB = parent.v_LB + cross(parent.omega, m.r_HP);
-      if (link.slides) m.at.v_LB += q_dot * m.axis;
-      m.pushed = {};
-    }
     m.moment = m.at.dcm_WL * link.mass.moment;
     m.u = link.effort - link.stiffness * (q - link.rest);
     m.q_dot = q_dot;
+    if (is_watched_) {
+      set_velocity(i);
+      m.pushed = {};
+    }
     m.spin = {};
     for (const RotorOn<H, S>& rotor : link.rotors) {
       const Vec<S> axis = m.at.dcm_WL * rotor.axis_L;

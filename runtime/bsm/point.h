@@ -9,6 +9,7 @@
 
 #include "runtime/bsm/draining.h"
 #include "runtime/bsm/law.h"
+#include "runtime/bsm/outside.h"
 #include "runtime/bsm/parts.h"
 #include "runtime/bsm/plan.h"
 
@@ -56,9 +57,7 @@ class Point {
 
   /// As of Limb.
   void watch() { is_watched_ = true; }
-  LinkMotion<H> motion_of(std::size_t, std::size_t limb) const {
-    return picked<H>(LinkMotion<S>{dcm_BL_, omega_, r_, v_}, limb);
-  }
+  LinkMotion<H> motion_of(std::size_t, std::size_t limb) const { return picked<H>(motion(), limb); }
   void push(std::size_t, std::size_t limb, const Pull<H>& pull) {
     add_to<H>(pushed_.force, limb, pull.force);
     add_to<H>(pushed_.torque, limb, pull.torque);
@@ -69,8 +68,7 @@ class Point {
     const S q_dot = gather<H, S>(state, rate_);
     r_ = r_HB_ + q * axis_;
     if (is_watched_) {
-      omega_ = omega;
-      v_ = cross(omega, r_) + q_dot * axis_;
+      set_velocity(q_dot, omega);
       pushed_ = {};
     }
     a_bias_ = cross(omega, cross(omega, r_) + (q_dot + q_dot) * axis_);
@@ -115,7 +113,44 @@ class Point {
     scatter<H, S>(gain_ - dot(axis_, a_B + cross(omega_dot_B, r_)), rate, rate_);
   }
 
+  // For the books, as of Limb.
+  S inner_power(const Number<H>* state) const {
+    const S q_dot = gather<H, S>(state, rate_);
+    return (effort_ - damping_ * q_dot) * q_dot;
+  }
+  void trace(const Number<H>* state, const Vec<S>& omega) {
+    set_velocity(gather<H, S>(state, rate_), omega);
+  }
+  Vec<S> momentum() const { return mass_ * v_; }
+  Outside<S> loads(const Vec<S>* r_CB) const {
+    Pull<S> sum{dcm_BL_ * force_L_, dcm_BL_ * torque_L_};
+    if (is_watched_) sum.add(pushed_);
+    if (r_CB != nullptr) sum.add(dcm_BL_ * force_at_center_L_, *r_CB - r_);
+    Outside<S> outside;
+    outside.add(sum, motion());
+    return outside;
+  }
+  Outside<S> gravity(const Field<S>& field) const {
+    Outside<S> outside;
+    outside.add({mass_ * field.difference(r_), {}}, motion());
+    return outside;
+  }
+  Leaving<S> leaving(const Tanks<H>& tanks, const Field<S>* field) const {
+    Leaving<S> leaving;
+    if (!draining_.drains()) return leaving;
+    const S rate = draining_.point_rate(tanks);
+    leaving.add_point(rate, r_, v_);
+    if (field != nullptr) leaving.lift(rate, r_, *field);
+    return leaving;
+  }
+
  private:
+  void set_velocity(const S& q_dot, const Vec<S>& omega) {
+    omega_ = omega;
+    v_ = cross(omega, r_) + q_dot * axis_;
+  }
+  MountMotion<S> motion() const { return {dcm_BL_, omega_, r_, v_}; }
+
   Vec<S> r_HB_, axis_;
   Mat<S> dcm_BL_;
   S stiffness_{}, damping_{}, rest_{}, mass_{}, inverse_mass_{}, effort_{};

@@ -14,6 +14,8 @@ struct RotorOn {
   S spin_up{};  // [rad/s^2] what the motor gives a wheel on a mount at rest
   Places<H, S> speed{};
 
+  /// What the motor gives the wheel [W].
+  S power(const Number<H>* state) const { return motor_torque * gather<H, S>(state, speed); }
   void hold(std::size_t l, const Number<S>& torque) {
     set_lane(motor_torque, l, torque);
     set_lane(spin_up, l, torque / lane(spin_inertia, l));

@@ -12,6 +12,9 @@
 
 namespace twincraft::bsm::TWINCRAFT_KERNEL {
 
+template <class H, class S>
+class Bookkeeper;
+
 /// @tparam H  scalar of the hub: a double, or one spacecraft per lane
 /// @tparam S  of the limbs: two like ones per Pair, or H where the lanes are spacecraft
 template <class H, class S>
@@ -38,12 +41,14 @@ class Vehicle {
   }
 
   void hold(Held held) {
-    acts_at_center_ = false;
+    acts_at_center_ = acts_on_hub_ = acts_on_limbs_ = false;
     for (std::size_t l = 0; l < kLanes<H>; ++l) {
       set_lane(held_.force, l, *held[l]->force_L.data());
       set_lane(held_.torque, l, *held[l]->torque_L.data());
       set_lane(held_at_center_, l, *held[l]->force_at_center_L.data());
       acts_at_center_ = acts_at_center_ || held[l]->acts_at_center;
+      acts_on_hub_ = acts_on_hub_ || held[l]->acts_on_hub;
+      acts_on_limbs_ = acts_on_limbs_ || held[l]->acts_on_limbs;
       for (std::size_t k = 0; k < rotors_.size(); ++k) {
         rotors_[k].hold(l, held[l]->motor_torque.data()[plans_[l]->hub.rotors.data()[k]]);
       }
@@ -88,6 +93,8 @@ class Vehicle {
   const Law<H>& last_hub_law() const { return hub_; }
 
  private:
+  friend class Bookkeeper<H, S>;  // reads what an evaluation leaves in memory
+
   void derivative_steady(Number<H> time, const Number<H>* state, Number<H>* rate) {
     if (plan_.chart == AttitudeChart::kMrp) {
       derivative_in<Mrp<H>>(time, state, rate);
@@ -128,6 +135,10 @@ class Vehicle {
     put_entry(state, at + 2, v.z);
   }
   static Vec<S> spread(const Vec<H>& v) { return {S(v.x), S(v.y), S(v.z)}; }
+  static Field<S> spread(const Field<H>& field) {
+    return {S(field.mu), spread(field.r), S(field.inverse_r2), S(field.strength),
+            field.has_gradient};
+  }
 
   void set_hub(std::size_t l, const Plan& plan) {
     plans_[l] = &plan;
@@ -182,8 +193,10 @@ class Vehicle {
   // Apart from derivative_in(): most vehicles have no such force.
   [[gnu::noinline]] void push(Number<H> time, const Number<H>* state, const Mat<H>& dcm_NB,
                               const Vec<H>& omega) {
+    pushed_ = {};
     push_.add({H(time), vector(state, 0), vector(state, 3), dcm_NB}, omega, limbs_,
               [this](const Pull<H>& pull) {
+                pushed_.add(pull);
                 hub_.f0 -= pull.force;
                 hub_.n0 -= pull.torque;
               });
@@ -248,6 +261,12 @@ class Vehicle {
     hub_.f0 = cross(omega, cross(omega, mass_.moment)) - held_.force;
   }
 
+  Field<H> field_at(const Vec<H>& r_BN_N, const Mat<H>& dcm_NB, const Vec<H>& r_CB) const {
+    const bool is_uniform = plan_.law == GravityLaw::kSystemCom;
+    return {mu_, is_uniform ? r_BN_N + dcm_NB * r_CB : r_BN_N,
+            plan_.law == GravityLaw::kBodyGradient};
+  }
+
   /// The law of the whole vehicle about B. @return the common acceleration of the falling frame
   /// [m/s^2]
   Vec<H> sum_laws(const Vec<H>& r_BN_N, const Mat<H>& dcm_NB) {
@@ -263,8 +282,7 @@ class Vehicle {
       add_limbs(nullptr, center);
       return {};
     }
-    const Field<H> field(mu_, is_uniform ? r_BN_N + dcm_NB * r_CB : r_BN_N,
-                         plan_.law == GravityLaw::kBodyGradient);
+    const Field<H> field = field_at(r_BN_N, dcm_NB, r_CB);
     if (has_elements_) {
       const Field<H> field_B = field.in_axes(dcm_NB);
       pull_on_hub(field_B);
@@ -302,10 +320,7 @@ class Vehicle {
     }
     Field<S> field_S;
     Vec<S> r_CB_S;
-    if (field != nullptr) {
-      field_S = {S(field->mu), spread(field->r), S(field->inverse_r2), S(field->strength),
-                 field->has_gradient};
-    }
+    if (field != nullptr) field_S = spread(*field);
     if (r_CB != nullptr) r_CB_S = spread(*r_CB);
     limbs_.for_each([&](auto& group) {
       add(group.limb.contribute(field == nullptr ? nullptr : &field_S,
@@ -339,7 +354,8 @@ class Vehicle {
   Pull<H> held_;
   Vec<H> held_at_center_;
   bool acts_at_center_ = false;
-  Vec<H> motor_torque_;  // of all rotors on the hub, on the rotors
+  bool acts_on_hub_ = false, acts_on_limbs_ = false;  // what is held, in some lane
+  Vec<H> motor_torque_;                               // of all rotors on the hub, on the rotors
   Limbs<H, S> limbs_;
   bool is_rigid_ = false;      // no limbs, no draining: factored once
   bool turns_alone_ = false;   // see turn_alone()
@@ -347,6 +363,7 @@ class Vehicle {
   HubFactors factors_;
   Law<H> hub_alone_, hub_;
   Push<H, S> push_;  // of forces that follow the motion of links
+  Pull<H> pushed_;   // of them, on the hub
 };
 
 }  // namespace twincraft::bsm::TWINCRAFT_KERNEL

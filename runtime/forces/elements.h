@@ -19,6 +19,7 @@ class Elements {
 
     Vector3d r_EL_L() const { return eigen(r_EL); }
     Matrix3d I_PntE_L() const { return eigen(I); }
+    bool is_point() const { return I_PntE_L().isZero(0.0); }
   };
 
   /// @param by_link  of every link  @param wanted  whether to take one

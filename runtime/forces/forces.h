@@ -74,25 +74,15 @@ class ForceModel {
   /// No link feels anything now: apply() leaves the wrenches as they are. Gravity may still make
   /// the vehicle fall as a whole.
   bool is_idle() const { return !gravity_acts_ && acting_loads_.empty(); }
-  /// Gravity is felt by no link: the loads are all that apply() would find.
-  bool has_loads_alone() const { return !gravity_acts_; }
-
   /// Nothing but loads at places of the hub: no other link is asked for, and in axes that turn with
   /// the hub their wrench is the same until the next hold().
   bool acts_on_hub_alone() const { return acts_on_hub_alone_; }
-
-  /// fall() depends on where the links are.
-  bool falls_as_a_whole() const {
-    return law_ == GravityLaw::kSystemCom && frame_ == FieldFrame::kFalling;
-  }
 
   /// Set the wrench of every link, unless idle.
   /// @param rates  of the links, for what is returned; empty: no work is asked for
   /// @return of loads and gravity-gradient torques
   Work apply(const Vector3d& r_BN_W, std::span<const LinkPose> links,
              std::span<const LinkRate> rates, std::span<Wrench> wrenches) const;
-  /// Of the loads alone, without their wrenches.
-  Work work_of_loads(std::span<const LinkPose> links, std::span<const LinkRate> rates) const;
 
   /// The common acceleration [m/s^2] of the falling frame in N, to be added to the hub's; zero in
   /// the inertial frame or without gravity. In N because turning a vector of orbital size into W
@@ -119,9 +109,14 @@ class ForceModel {
   Vector3d center_of_mass(std::span<const LinkPose> links) const;               // r_CB_W
   static Vector3d place_of(const Element& e, std::span<const LinkPose> links);  // r_EB_W
   // @param rates  empty: no work is asked for
+  /// fall() depends on where the links are.
+  bool falls_as_a_whole() const {
+    return law_ == GravityLaw::kSystemCom && frame_ == FieldFrame::kFalling;
+  }
   void apply_gravity(const Vector3d& r_BN_W, std::span<const LinkPose> links,
                      std::span<const LinkRate> rates, std::span<Wrench> wrenches, Work& work) const;
   void apply_loads(std::span<const LinkPose> links, std::span<Wrench> wrenches) const;
+  Work work_of_loads(std::span<const LinkPose> links, std::span<const LinkRate> rates) const;
   struct ActingLoad {
     Vector3d torque_W, force_W, r_FB_W;
   };

@@ -1,5 +1,5 @@
-// The forces that follow the motion of links, for a double: what MuJoCo, the books and the proofs
-// ask. Their laws are those of the kernel, see list.h.
+// The forces that follow the motion of links, for a double: what MuJoCo and the proofs ask. Their
+// laws are those of the kernel, see list.h.
 #pragma once
 
 #include <memory>

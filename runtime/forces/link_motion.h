@@ -35,6 +35,10 @@ struct Pull {
     force += more;
     torque += cross(at, more);
   }
+  void add(const Pull& more) {
+    force += more.force;
+    torque += more.torque;
+  }
 };
 
 }  // namespace twincraft::TWINCRAFT_KERNEL

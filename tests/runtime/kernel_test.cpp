@@ -114,6 +114,15 @@ Eigen::VectorXd flown(bsm::Kernel& kernel, const Eigen::VectorXd& initial) {
   return Eigen::VectorXd::Map(stepper.state().data(), initial.size());
 }
 
+Eigen::VectorXd side_by_side(const Fleet& fleet, const Vector3d& r_BN_N) {
+  const auto lanes = static_cast<Eigen::Index>(fleet.states.size());
+  Eigen::MatrixXd states(lanes, test::kernel_state(fleet.states[0], r_BN_N).size());
+  for (Eigen::Index l = 0; l < lanes; ++l)
+    states.row(l) =
+        test::kernel_state(fleet.states[static_cast<std::size_t>(l)], r_BN_N).transpose();
+  return states.reshaped();
+}
+
 void expect_every_lane_flies_alone(const InstructionSet set, bool drains) {
   const Vector3d r_BN(30.0, -40.0, 20.0);
   const std::size_t lanes = bsm::batch_lanes(set);
@@ -121,14 +130,8 @@ void expect_every_lane_flies_alone(const InstructionSet set, bool drains) {
   const auto batch = bsm::make_batch_kernel(fleet.plan_of, set);
   ASSERT_EQ(batch->lanes(), lanes);
   batch->hold(fleet.held_of);
-  const Eigen::Index size = test::kernel_state(fleet.states[0], r_BN).size();
-  Eigen::MatrixXd side_by_side(static_cast<Eigen::Index>(lanes), size);
-  for (std::size_t l = 0; l < lanes; ++l) {
-    side_by_side.row(static_cast<Eigen::Index>(l)) =
-        test::kernel_state(fleet.states[l], r_BN).transpose();
-  }
-  const Eigen::VectorXd flat = side_by_side.reshaped();
-  const Eigen::VectorXd ends = flown(*batch, flat);
+  const Eigen::VectorXd ends = flown(*batch, side_by_side(fleet, r_BN));
+  const Eigen::Index size = ends.size() / static_cast<Eigen::Index>(lanes);
   for (std::size_t l = 0; l < lanes; ++l) {
     const auto single = bsm::make_kernel(fleet.plans[l], set);
     single->hold({&fleet.held_of[l], 1});
@@ -148,7 +151,39 @@ TEST(Batch, HasTanksOfItsOwnInEveryLane) {
   for (const InstructionSet set : bsm::instruction_sets()) expect_every_lane_flies_alone(set, true);
 }
 
-TEST(Batch, TakesNothingFromTheHeapInADerivative) {
+Eigen::Vector<double, 8> numbers_of(const BookRates& rates) {
+  Eigen::Vector<double, 8> numbers;
+  numbers << rates.power, rates.own_power, rates.force_N, rates.torque_PntC_N;
+  return numbers;
+}
+
+TEST(Batch, BooksEveryLaneAsASingleSpacecraft) {
+  const Vector3d r_BN(30.0, -40.0, 20.0);
+  for (const InstructionSet set : bsm::instruction_sets()) {
+    const Fleet fleet(bsm::batch_lanes(set), 6, 2, 47, true);
+    const auto batch = bsm::make_batch_kernel(fleet.plan_of, set);
+    batch->hold(fleet.held_of);
+    const Eigen::VectorXd states = side_by_side(fleet, r_BN);
+    Eigen::VectorXd rates(states.size());
+    std::vector<BookRates> books(fleet.plans.size());
+    batch->derivative(0.5, states.data(), rates.data());
+    batch->books(states.data(), books);
+    for (std::size_t l = 0; l < books.size(); ++l) {
+      const auto single = bsm::make_kernel(fleet.plans[l], set);
+      single->hold({&fleet.held_of[l], 1});
+      const Eigen::VectorXd state = test::kernel_state(fleet.states[l], r_BN);
+      BookRates alone;
+      single->derivative(0.5, state.data(), rates.data());
+      single->books(state.data(), {&alone, 1});
+      const Eigen::Vector<double, 8> expected = numbers_of(alone);
+      EXPECT_GT(expected.cwiseAbs().minCoeff(), 0.0);
+      EXPECT_LT((numbers_of(books[l]) - expected).norm(), 1e-13 * expected.norm())
+          << name_of(set) << ", lane " << l;
+    }
+  }
+}
+
+TEST(Batch, TakesNothingFromTheHeapInADerivativeOrItsBooks) {
   const InstructionSet set = bsm::fastest_instruction_set(bsm::Use::kBatch);
   const Fleet fleet(bsm::batch_lanes(set), 6, 2, 47, true);
   const auto batch = bsm::make_batch_kernel(fleet.plan_of, set);
@@ -157,9 +192,11 @@ TEST(Batch, TakesNothingFromTheHeapInADerivative) {
   Eigen::VectorXd state =
       Eigen::VectorXd::Constant(size * static_cast<Eigen::Index>(fleet.plans.size()), 0.1);
   Eigen::VectorXd rate(state.size());
+  std::vector<BookRates> books(fleet.plans.size());
   const long before = test::allocation_count();
   for (int i = 0; i < 10; ++i) {
     batch->derivative(0.0, state.data(), rate.data());
+    batch->books(state.data(), books);
     batch->finish_step(state.data());
   }
   EXPECT_EQ(test::allocation_count(), before);

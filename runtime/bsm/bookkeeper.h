@@ -1,0 +1,170 @@
+// What changes the books of a vehicle, from what an evaluation left in memory: summed over hub and
+// limbs as their laws are, without a second motion of the tree.
+// Tested by tests/runtime/books_test.cpp.
+#pragma once
+
+#include "runtime/bsm/vehicle.h"
+
+namespace twincraft::bsm::TWINCRAFT_KERNEL {
+
+template <class H, class S>
+class Bookkeeper {
+ public:
+  /// @param state  at which the vehicle's derivative() has last been asked
+  Bookkeeper(Vehicle<H, S>& vehicle, const Number<H>* state) : vehicle_(vehicle), state_(state) {
+    hub_.dcm_WL = {{H(1.0), H(0.0), H(0.0)}, {H(0.0), H(1.0), H(0.0)}, {H(0.0), H(0.0), H(1.0)}};
+    hub_.omega = vehicle.vector(state, vehicle.layout_.omega);
+  }
+
+  BooksOf<H> books() {
+    const H inner = inner_power();
+    BooksOf<H> books{inner, inner, {}, {}};
+    const bool changes = acts() || vehicle_.tanks_.flow();
+    if (!falls() && !changes) return books;
+    dcm_NB_ = vehicle_.plan_.chart == AttitudeChart::kMrp
+                  ? Mrp<H>(state_, Layout::kAttitude).dcm_NB()
+                  : Quaternion<H>(state_, Layout::kAttitude).dcm_NB();
+    Tally<H> tally;
+    tally.moment = moment();
+    Field<H> field;
+    if (falls()) {
+      field = vehicle_.field_at(vehicle_.vector(state_, 0), dcm_NB_, tally.r_CB());
+      books.force_N = tally.moment.mass * field.at_hub();
+    }
+    if (changes) book_changes(field.in_axes(dcm_NB_), tally, books);
+    return books;
+  }
+
+ private:
+  bool falls() const { return vehicle_.plan_.law != GravityLaw::kNone; }
+  bool loads_act() const {
+    return vehicle_.acts_on_hub_ || vehicle_.acts_on_limbs_ || vehicle_.push_.acts();
+  }
+  bool acts() const { return loads_act() || vehicle_.has_elements_; }
+
+  H inner_power() const {
+    H power(0.0);
+    for (const RotorOn<H, H>& rotor : vehicle_.rotors_) power += rotor.power(state_);
+    add_limbs([&](const auto& limb) { return limb.inner_power(state_); }, power);
+    return power;
+  }
+
+  Moment<H> moment() const {
+    Moment<H> sum{vehicle_.mass_.mass, vehicle_.mass_.moment};
+    add_limbs([](const auto& limb) { return limb.moment(); }, sum);
+    return sum;
+  }
+
+  /// @param field  in hub axes  @param tally  has the moment
+  void book_changes(const Field<H>& field, Tally<H>& tally, BooksOf<H>& books) {
+    tally.momentum = momentum();
+    const Vec<H> v_BN_N = vehicle_.vector(state_, 3);
+    if (loads_act()) tally.book_loads(loads(tally.r_CB()), dcm_NB_, v_BN_N, books);
+    if (vehicle_.has_elements_) tally.book_gravity(gravity(field), dcm_NB_, books);
+    if (vehicle_.tanks_.flow())
+      tally.book_leaving(leaving(field, tally.r_CB()), dcm_NB_, v_BN_N, books);
+  }
+
+  /// Lets limbs know their velocities.
+  Vec<H> momentum() {
+    const Vec<S> omega = vehicle_.spread(hub_.omega);
+    Vec<H> sum = cross(hub_.omega, vehicle_.mass_.moment);
+    const auto of = [&](auto& limb) {
+      limb.trace(state_, omega);
+      return limb.momentum();
+    };
+    add_limbs(of, sum);
+    return sum;
+  }
+
+  Outside<H> loads(const Vec<H>& r_CB) const {
+    Pull<H> on_hub = vehicle_.held_;
+    if (vehicle_.push_.acts()) on_hub.add(vehicle_.pushed_);
+    if (vehicle_.acts_at_center_) on_hub.add(vehicle_.held_at_center_, r_CB);
+    Outside<H> outside;
+    outside.add(on_hub, hub_);
+    if (!vehicle_.acts_on_limbs_ && !vehicle_.push_.acts()) return outside;
+    const Vec<S> r_CB_S = vehicle_.spread(r_CB);
+    const Vec<S>* center = vehicle_.acts_at_center_ ? &r_CB_S : nullptr;
+    add_limbs([&](const auto& limb) { return limb.loads(center); }, outside);
+    return outside;
+  }
+
+  Outside<H> gravity(const Field<H>& field) const {
+    Outside<H> outside;
+    for (const ElementNow<H>& element : vehicle_.elements_) {
+      Pull<H> pull;
+      pull.add(element.mass * field.difference(element.r_EL), element.r_EL);
+      outside.add(pull, hub_);
+      if (field.has_gradient)
+        outside.add_turn(field.gradient_torque(element.r_EL, element.I), hub_);
+    }
+    const Field<S> field_S = vehicle_.spread(field);
+    add_limbs([&](const auto& limb) { return limb.gravity(field_S); }, outside);
+    return outside;
+  }
+
+  Leaving<H> leaving(const Field<H>& field, const Vec<H>& r_CB) const {
+    const Field<S> field_S = vehicle_.spread(field);
+    const Field<S>* pulls = vehicle_.has_elements_ ? &field_S : nullptr;
+    Leaving<H> sum;
+    add_limbs([&](const auto& limb) { return limb.leaving(vehicle_.tanks_, pulls); }, sum);
+    add_leaving_hub(field, sum);
+    if (!falls()) return sum;
+    const Moment<H>& lost = sum.moment;
+    sum.potential -= lost.mass * field.mu * root(field.inverse_r2);
+    if (vehicle_.plan_.law == GravityLaw::kSystemCom)  // the field is that at C
+      sum.potential -= dot(field.at_hub(), lost.moment - lost.mass * r_CB);
+    return sum;
+  }
+  void add_leaving_hub(const Field<H>& field, Leaving<H>& sum) const {
+    const LinkDrain<H, H>& draining = vehicle_.draining_;
+    if (!draining.drains()) return;
+    sum.add_on_hub(draining.mass_rate(vehicle_.tanks_), hub_.omega);
+    for (std::size_t e = 0; e < vehicle_.elements_.size(); ++e)
+      sum.lift(draining.element_rate(e, vehicle_.tanks_), vehicle_.elements_[e].r_EL, field);
+  }
+
+  /// @param of  what the limbs of one group say, side by side  @param sum  takes it of all limbs
+  template <class Of, class Sum>
+  void add_limbs(const Of& of, Sum& sum) const {
+    vehicle_.limbs_.for_each([&](auto& group) {
+      const auto limbs = of(group.limb);
+      if (group.is_full)  // asked once, not for every number
+        sum += total<true>(limbs);
+      else
+        sum += total<false>(limbs);
+    });
+  }
+  // See gathered().
+  template <bool kIsFull>
+  static H total(const S& value) {
+    return gathered<H, S>(value, kIsFull);
+  }
+  template <bool kIsFull>
+  static Vec<H> total(const Vec<S>& v) {
+    return {total<kIsFull>(v.x), total<kIsFull>(v.y), total<kIsFull>(v.z)};
+  }
+  template <bool kIsFull>
+  static Moment<H> total(const Moment<S>& m) {
+    return {total<kIsFull>(m.mass), total<kIsFull>(m.moment)};
+  }
+  template <bool kIsFull>
+  static Outside<H> total(const Outside<S>& o) {
+    return {{total<kIsFull>(o.pull.force), total<kIsFull>(o.pull.torque)},
+            total<kIsFull>(o.power),
+            total<kIsFull>(o.turn_power)};
+  }
+  template <bool kIsFull>
+  static Leaving<H> total(const Leaving<S>& o) {
+    return {total<kIsFull>(o.moment), total<kIsFull>(o.momentum), total<kIsFull>(o.H_PntB_B),
+            total<kIsFull>(o.kinetic), total<kIsFull>(o.potential)};
+  }
+
+  Vehicle<H, S>& vehicle_;
+  const Number<H>* state_;
+  Mat<H> dcm_NB_;
+  MountMotion<H> hub_;
+};
+
+}  // namespace twincraft::bsm::TWINCRAFT_KERNEL
