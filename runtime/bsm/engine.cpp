@@ -81,8 +81,8 @@ class BsmEngine final : public Engine {
 
   void derivative(double time, std::span<const double> state, std::span<double> rate,
                   BookRates* books) override {
+    if (books != nullptr) return evaluate_and_book(time, state, rate, *books);
     kernel_->derivative(time, state.data(), rate.data());
-    if (books != nullptr) kernel_->books(state.data(), {books, 1});
   }
 
   void finish_step(std::span<double> state) override { kernel_->finish_step(state.data()); }
@@ -135,6 +135,13 @@ class BsmEngine final : public Engine {
     Vector3d r_BN_B() const { return dcm_NB.transpose() * r_BN_N; }
     Vector3d v_BN_B() const { return dcm_NB.transpose() * v_BN_N; }
   };
+
+  // Apart from derivative(), which without it is a jump into the kernel.
+  [[gnu::noinline]] void evaluate_and_book(double time, std::span<const double> state,
+                                           std::span<double> rate, BookRates& books) {
+    kernel_->derivative(time, state.data(), rate.data());
+    kernel_->books(state.data(), {&books, 1});
+  }
 
   State read(std::span<const double> state) const {
     const UnpackedState x = unpack(state, layout());
