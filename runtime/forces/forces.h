@@ -106,13 +106,13 @@ class ForceModel {
     Vector3d force_L, torque_L, r_FL_L;
   };
 
-  Vector3d center_of_mass(std::span<const LinkPose> links) const;               // r_CB_W
-  static Vector3d place_of(const Element& e, std::span<const LinkPose> links);  // r_EB_W
-  // @param rates  empty: no work is asked for
   /// fall() depends on where the links are.
   bool falls_as_a_whole() const {
     return law_ == GravityLaw::kSystemCom && frame_ == FieldFrame::kFalling;
   }
+  Vector3d center_of_mass(std::span<const LinkPose> links) const;               // r_CB_W
+  static Vector3d place_of(const Element& e, std::span<const LinkPose> links);  // r_EB_W
+  // @param rates  empty: no work is asked for
   void apply_gravity(const Vector3d& r_BN_W, std::span<const LinkPose> links,
                      std::span<const LinkRate> rates, std::span<Wrench> wrenches, Work& work) const;
   void apply_loads(std::span<const LinkPose> links, std::span<Wrench> wrenches) const;
