@@ -191,8 +191,7 @@ class Limb {
           outside.add_turn(field.gradient_torque(place, element.I.turned(at.dcm_WL)), at);
       }
     }
-    for (const Chain<H, S>& chain : chains_)
-      chain.add_gravity(mount(chain.mount()), outside);
+    for (const Chain<H, S>& chain : chains_) chain.add_gravity(mount(chain.mount()), outside);
     return outside;
   }
   /// @param field  null: what is lost has no potential
