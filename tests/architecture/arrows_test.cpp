@@ -57,6 +57,7 @@ const std::map<std::string, Rooms> kArrows = {
     {"runtime/study",
      {"compiler/ir", "runtime/bsm", "runtime/compare", "runtime/engine", "runtime/integrate",
       "runtime/linear", "runtime/reference", "runtime/simulate", "mujoco"}},
+    {"runtime/statistics", {}},
     {"runtime/report",
      {"compiler/ir", "runtime/compare", "runtime/engine", "runtime/integrate", "runtime/simulate",
       "runtime/study"}},
