@@ -58,6 +58,8 @@ const std::map<std::string, Rooms> kArrows = {
      {"compiler/ir", "runtime/bsm", "runtime/compare", "runtime/engine", "runtime/integrate",
       "runtime/linear", "runtime/reference", "runtime/simulate", "mujoco"}},
     {"runtime/statistics", {}},
+    {"runtime/campaign",
+     {"compiler/ir", "runtime/compare", "runtime/engine", "runtime/statistics"}},
     {"runtime/report",
      {"compiler/ir", "runtime/compare", "runtime/engine", "runtime/integrate", "runtime/simulate",
       "runtime/study"}},
