@@ -4,6 +4,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <cctype>
@@ -42,6 +43,13 @@ int write_all(int descriptor, std::string_view text) {
   return 0;
 }
 
+/// @return empty, or why there is no such folder
+std::string make_parent(const fs::path& path) {
+  std::error_code error;
+  if (path.has_parent_path()) fs::create_directories(path.parent_path(), error);
+  return error ? fault(path.parent_path(), error.value()) : std::string();
+}
+
 /// To standard output. @return empty, or what went wrong
 std::string write_bytes(std::string_view bytes) {
   const int error = write_all(STDOUT_FILENO, bytes);
@@ -67,11 +75,9 @@ PendingFile::~PendingFile() {
 }
 
 std::string PendingFile::make_folder() const {
+  if (std::string error = make_parent(target_); !error.empty()) return error;
   std::error_code error;
-  if (target_.has_parent_path()) fs::create_directories(target_.parent_path(), error);
-  if (error) return fault(target_.parent_path(), error.value());
-  if (fs::is_directory(target_, error)) return fault(target_, EISDIR);
-  return {};
+  return fs::is_directory(target_, error) ? fault(target_, EISDIR) : std::string();
 }
 
 /// Another run may write to the same folder, so the name is tried until it is new.
@@ -108,6 +114,31 @@ std::string PendingFile::publish() {
   if (::rename(temporary_.c_str(), target_.c_str()) != 0) return fault(target_, errno);
   temporary_.clear();
   return {};
+}
+
+GrowingFile::GrowingFile(fs::path path, std::uintmax_t keep) : path_(std::move(path)) {
+  error_ = make_parent(path_);
+  if (!error_.empty()) return;
+  descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+  if (descriptor_ < 0) {
+    error_ = fault(path_, errno);
+    return;
+  }
+  // A file system without locks does not keep anybody from writing.
+  if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+    error_ =
+        fmt::format("cannot write {}: another program is writing it", in_backticks(path_.string()));
+  else if (::ftruncate(descriptor_, static_cast<off_t>(keep)) != 0)
+    error_ = fault(path_, errno);
+}
+
+GrowingFile::~GrowingFile() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+void GrowingFile::append(std::string_view text) {
+  if (!error_.empty()) return;
+  if (const int error = write_all(descriptor_, text); error != 0) error_ = fault(path_, error);
 }
 
 std::string publish(std::vector<PendingFile>& files) {

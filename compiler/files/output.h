@@ -1,9 +1,10 @@
 // Writing results so that nothing is ever half written: every file of a run goes to a temporary
 // name in its own folder and reaches the disk before the first one gets its real name. A run that
-// fails leaves earlier files as they were. Also used for reports.
-// Tested by tests/compiler/output_test.cpp.
+// fails leaves earlier files as they were. Also used for reports. What is meant to grow line by
+// line is a GrowingFile. Tested by tests/compiler/output_test.cpp.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -40,6 +41,29 @@ class PendingFile {
   void close();
 
   std::filesystem::path target_, temporary_;
+  int descriptor_ = -1;
+  std::string error_;
+};
+
+/// A file that grows while a run goes on, and is of use however far it came: what append() has
+/// taken stays when the program is killed. The system's own fall may lose it.
+class GrowingFile {
+ public:
+  /// Folders that do not exist are made. One program at a time writes to it; a second one gets an
+  /// error.
+  /// @param keep  bytes of an earlier run that stay; what is beyond is cut off
+  GrowingFile(std::filesystem::path path, std::uintmax_t keep);
+  ~GrowingFile();
+  GrowingFile(const GrowingFile&) = delete;
+  GrowingFile& operator=(const GrowingFile&) = delete;
+
+  void append(std::string_view text);
+
+  /// Empty, or what went wrong first; nothing is done after that.
+  const std::string& error() const { return error_; }
+
+ private:
+  std::filesystem::path path_;
   int descriptor_ = -1;
   std::string error_;
 };

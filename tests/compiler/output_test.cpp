@@ -52,6 +52,37 @@ TEST_F(Output, WritesAllFilesAndMakesTheirFolders) {
   EXPECT_EQ(entries(), 2u);  // no temporary file is left
 }
 
+TEST_F(Output, GrowsAFileFromWhereItIsWhole) {
+  {
+    GrowingFile file(path("deep/er/a.txt"), 0);
+    file.append("one\n");
+    EXPECT_EQ(text_of("deep/er/a.txt"), "one\n");  // no buffer keeps it
+    file.append("tw");
+    EXPECT_EQ(file.error(), "");
+  }
+  GrowingFile file(path("deep/er/a.txt"), 4);
+  EXPECT_EQ(text_of("deep/er/a.txt"), "one\n");
+  file.append("two\n");
+  EXPECT_EQ(text_of("deep/er/a.txt"), "one\ntwo\n");
+}
+
+TEST_F(Output, GrowsAFileForOneWriterAtATime) {
+  GrowingFile first(path("a.txt"), 0);
+  first.append("one\n");
+  GrowingFile second(path("a.txt"), 0);
+  EXPECT_THAT(second.error(), HasSubstr("another program is writing it"));
+  second.append("two\n");
+  first.append("three\n");
+  EXPECT_EQ(text_of("a.txt"), "one\nthree\n");
+}
+
+TEST_F(Output, SaysWhyAFileCannotGrow) {
+  fs::create_directories(folder_ / "here");
+  EXPECT_THAT(GrowingFile(path("here"), 0).error(), HasSubstr("is a directory"));
+  ASSERT_EQ(write_files({{path("file"), "x"}}), "");
+  EXPECT_THAT(GrowingFile(path("file/a.txt"), 0).error(), HasSubstr("not a directory"));
+}
+
 TEST_F(Output, ReplacesAnEarlierFile) {
   ASSERT_EQ(write_files({{path("a.xml"), "a long earlier text\n"}}), "");
   EXPECT_EQ(write_files({{path("a.xml"), "new\n"}}), "");
