@@ -31,10 +31,6 @@ std::string checksum(std::string_view text) {
   return fmt::format("{:08x}", crc.checksum());
 }
 
-std::string checked_line(std::string_view text) {
-  return fmt::format("{} {}\n", checksum(text), text);
-}
-
 /// What a line says when its checksum is right.
 std::optional<std::string_view> checked(std::string_view line) {
   constexpr std::size_t kDigits = 8;
@@ -193,6 +189,10 @@ std::string difference(const RecordsHeader& one, const RecordsHeader& other) {
   if (!std::ranges::equal(one.drawn, other.drawn, is_same) || one.outputs != other.outputs)
     return "they have other columns";
   return {};
+}
+
+std::string checked_line(std::string_view text) {
+  return fmt::format("{} {}\n", checksum(text), text);
 }
 
 std::string header_line(const RecordsHeader& header) {

@@ -60,6 +60,9 @@ std::string members_line(std::size_t members);
 /// @pre numbers are finite, and as many as the header has columns
 std::string record_line(const MemberRecord& record);
 
+/// Any line but the header: a checksum and a text that has no line end.
+std::string checked_line(std::string_view text);
+
 class RecordReader {
  public:
   /// Reads the header. @param in  outlives the reader

@@ -9,32 +9,19 @@
 #include <limits>
 #include <sstream>
 
+#include "tests/campaign/handmade.h"
+
 namespace twincraft {
 namespace {
 
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-RecordsHeader header() {
-  RecordsHeader header;
-  header.name = "quickstart";
-  header.spec_sha256 = "abc";
-  header.instructions = "AVX2";
-  header.drawn = {{"hub.mass", "kg", "normal, sigma 2 %", 600.0},
-                  {"wheels.w.speed", "rad/s", "uniform", 1.0 / 3.0}};
-  header.outputs = {
-      {.name = "peak", .unit = "rad", .meaning = "maximum of x", .below = 0.1, .above = {}},
-      {.name = "touch", .unit = "s", .meaning = "y", .below = {}, .above = {}}};
-  return header;
-}
+RecordsHeader header() { return test::campaign_header(); }
 
 MemberRecord record(std::size_t member) {
-  MemberRecord record;
-  record.member = member;
-  record.drawn = {600.0 + static_cast<double>(member) / 3.0, -0.1};
+  MemberRecord record = test::member_record(member);
   record.outputs = {5e-324, std::nullopt};
-  record.verdict = Verdict::kNotJudged;
-  record.seconds = 0.25;
   record.reason = "peak 5.2 rad is not below 5 rad";
   return record;
 }
