@@ -7,10 +7,9 @@
 #include <cmath>
 
 namespace twincraft {
-namespace {
 
 /// A failed run may end in a sample that is no number.
-void append_cell(double value, std::string& text) {
+void append_number(double value, std::string& text) {
   if (!std::isfinite(value)) {
     text += fmt::format("{}", value);
     return;
@@ -19,8 +18,6 @@ void append_cell(double value, std::string& text) {
   const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
   text.append(digits.data(), end);
 }
-
-}  // namespace
 
 CsvLines::CsvLines(const Model& model)
     : outputs_(outputs_of(model)), printed_time_(model.simulation.step) {}
@@ -40,11 +37,11 @@ std::size_t CsvLines::columns() const {
 }
 
 void CsvLines::append(const Observation& sample, std::string& text) const {
-  append_cell(printed_time_(sample.time), text);
+  append_number(printed_time_(sample.time), text);
   for (const OutputSignal& output : outputs_)
     for (std::size_t i = 0; i < output.size(); ++i) {
       text += ',';
-      append_cell(value_of(output, i, sample), text);
+      append_number(value_of(output, i, sample), text);
     }
   text += '\n';
 }

@@ -11,6 +11,9 @@
 
 namespace twincraft {
 
+/// As the shortest text that reads back; `nan`, `inf`, `-inf`.
+void append_number(double value, std::string& text);
+
 /// Lines of a file as samples come; doubles read back exactly.
 /// Names of coordinates begin with a letter (the compiler saw to it), so no cell is a formula.
 class CsvLines {

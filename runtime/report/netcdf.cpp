@@ -7,18 +7,19 @@
 #include <array>
 #include <functional>
 #include <mutex>
-#include <stdexcept>
 #include <utility>
 #include <vector>
 
+#include "runtime/report/netcdf_file.h"
 #include "runtime/report/printed_time.h"
 
 namespace twincraft {
 namespace {
 
-void check(int status) {
-  if (status != NC_NOERR) throw std::runtime_error(fmt::format("netcdf: {}", nc_strerror(status)));
-}
+using netcdf::as_product;
+using netcdf::check;
+using netcdf::File;
+using netcdf::library;
 
 struct Variable {
   std::string name, unit, words;
@@ -27,13 +28,6 @@ struct Variable {
   int id = -1;
   std::vector<double> waiting = {};  // of samples that are not yet in the file
 };
-
-/// `rad/s` as `rad s-1`, which is how the CF conventions write units.
-std::string as_product(std::string unit) {
-  if (const std::size_t per = unit.find('/'); per != std::string::npos)
-    unit = fmt::format("{} {}-1", unit.substr(0, per), unit.substr(per + 1));
-  return unit;
-}
 
 Variable variable_of(const OutputSignal& output) {
   return {output.name, as_product(output.unit), output.meaning, output.size(),
@@ -49,44 +43,6 @@ std::vector<Variable> variables_of(const Model& model) {
   return variables;
 }
 
-/// netCDF and HDF5 keep what they know of all files in one place: one thread at a time.
-std::mutex& library() {
-  static std::mutex mutex;
-  return mutex;
-}
-
-/// A file that is let go of on every way out.
-class File {
- public:
-  explicit File(const std::string& path) { check(nc_create(path.c_str(), NC_NETCDF4, &id_)); }
-  ~File() {
-    if (open_) nc_abort(id_);
-  }
-  File(const File&) = delete;
-  File& operator=(const File&) = delete;
-
-  int id() const { return id_; }
-
-  int dimension(const char* name, std::size_t length) const {
-    int dimension = -1;
-    check(nc_def_dim(id_, name, length, &dimension));
-    return dimension;
-  }
-
-  void attribute(int variable, const char* name, const std::string& text) const {
-    check(nc_put_att_text(id_, variable, name, text.size(), text.data()));
-  }
-
-  void close() {
-    open_ = false;
-    check(nc_close(id_));
-  }
-
- private:
-  int id_ = -1;
-  bool open_ = true;
-};
-
 void describe(const File& file, const Bundle& bundle, std::string_view engine,
               const Provenance& provenance) {
   const auto put = [&](const char* name, const std::string& text) {
@@ -97,12 +53,7 @@ void describe(const File& file, const Bundle& bundle, std::string_view engine,
   put("engine", std::string(engine));
   put("spec_file", bundle.spec_file);
   put("spec_sha256", bundle.spec_sha256);
-  put("source", provenance.program);
-  put("git", provenance.git);
-  put("compiler", provenance.compiler);
-  put("compiler_flags", provenance.flags);
-  put("mujoco", provenance.mujoco);
-  put("eigen", provenance.eigen);
+  netcdf::describe(file, provenance);
   std::string settings;
   for (const Setting& setting : bundle.settings)
     settings += fmt::format("{}={}\n", setting.path, setting.text);

@@ -1,6 +1,8 @@
-// In place of netcdf.cpp where a build was configured with TWINCRAFT_NETCDF=OFF.
+// In place of netcdf.cpp and campaign_netcdf.cpp where a build was configured with
+// TWINCRAFT_NETCDF=OFF.
 #include <stdexcept>
 
+#include "runtime/report/campaign_netcdf.h"
 #include "runtime/report/netcdf.h"
 
 namespace twincraft {
@@ -11,6 +13,11 @@ class NetcdfFile::Contents {};
 
 NetcdfFile::NetcdfFile(const std::string& /*path*/, const Bundle& /*bundle*/,
                        std::string_view /*engine*/, const Provenance& /*provenance*/) {
+  throw std::runtime_error("this build has no netCDF");
+}
+
+void write_campaign_netcdf(const std::string& /*path*/, const CampaignTable& /*table*/,
+                           const Provenance& /*provenance*/) {
   throw std::runtime_error("this build has no netCDF");
 }
 
