@@ -71,9 +71,8 @@ std::optional<std::string> unescaped(std::string_view line) {
 
 template <class Number>
 bool read_number(std::string_view text, Number& number) {
-  const char* end = text.data() + text.size();
-  const auto [stop, fault] = std::from_chars(text.data(), end, number);
-  return fault == std::errc() && stop == end;
+  const auto [stop, fault] = std::from_chars(text.begin(), text.end(), number);
+  return fault == std::errc() && stop == text.end();
 }
 
 bool read_finite(std::string_view text, double& number) {
