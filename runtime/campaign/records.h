@@ -5,9 +5,10 @@
 // and what is in it can be looked at; binary would be half as long and nothing else. Every line but
 // the header begins with the CRC-32C of the rest of it:
 //
-//     twincraft-campaign/1 CRC {"spec_sha256": .., "instructions": .., "drawn": [..], "outputs":
-//     [..]} CRC members <tab> 1024 CRC 17 <tab> drawn <tab> .. output <tab> .. verdict <tab> twin
-//     <tab> seconds <tab> reason
+//     twincraft-campaign/1 CRC {"name": .., "spec_sha256": .., "instructions": ..,
+//                               "drawn": [..], "outputs": [..]}          (one line)
+//     CRC members <tab> 1024
+//     CRC 17 <tab> drawn .. <tab> output .. <tab> verdict <tab> twin <tab> seconds <tab> reason
 //
 // What is read may be anybody's: no more than one line of it is in memory, and what is wrong is
 // said in words.

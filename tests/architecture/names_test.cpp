@@ -40,7 +40,7 @@ TEST(Names, OfEnginesStandInTheirTable) {
                                    // halves of a script for Basilisk, and a module of it
                                    "compiler/emit/basilisk.cpp", "compiler/emit/basilisk_half.h",
                                    "compiler/emit/basilisk_mjscene_code.cpp",
-                                   "runtime/report/json.cpp",    // the version of a library,
+                                   "runtime/report/json.cpp",         // the version of a library,
                                    "runtime/report/netcdf_file.cpp",  // the same
                                    // words of the spec language
                                    "compiler/schema/synonyms.def", "compiler/schema/synonyms.def",
