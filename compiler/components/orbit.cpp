@@ -23,6 +23,7 @@ Kind<double> semi_major_axis() {
       .read = [any = quantity("m")](const Node& node,
                                     ReadContext& context) { return any.read(node, context); },
       .write = [positive](const double& value) { return positive.write(value); },
+      .numbers = positive.numbers(),
   });
 }
 

@@ -14,6 +14,7 @@ AnyKind::~AnyKind() = default;
 const std::string& AnyKind::text() const { return body_->text; }
 const Json& AnyKind::schema() const { return body_->schema; }
 const std::vector<const TableInfo*>& AnyKind::tables() const { return body_->tables; }
+const Numbers& AnyKind::numbers() const { return body_->numbers; }
 
 bool AnyKind::read_into(void* value, const Node& node, ReadContext& context) const {
   return body_->read(value, node, context);
@@ -39,7 +40,7 @@ std::vector<std::string> spellings_of(const Words& words) {
 class WordsKind : public KindBody {
  public:
   WordsKind(Words words, WordAccess access)
-      : KindBody(words_text(spellings_of(words), "or"), {{"enum", spellings_of(words)}}, {}),
+      : KindBody(words_text(spellings_of(words), "or"), {{"enum", spellings_of(words)}}, {}, {}),
         words_(std::move(words)),
         spellings_(spellings_of(words_)),
         access_(access) {}
@@ -67,7 +68,7 @@ class ListKind : public KindBody {
  public:
   ListKind(const AnyKind& item, std::size_t minimum, std::size_t maximum, ListAccess access)
       : KindBody("list of " + item.text(), list_schema(item.schema(), minimum, maximum),
-                 item.tables()),
+                 item.tables(), {}),
         item_(item),
         minimum_(minimum),
         maximum_(maximum),
@@ -116,7 +117,7 @@ class OneOrListKind : public KindBody {
  public:
   OneOrListKind(const AnyKind& item, const AnyKind& list, ListAccess access)
       : KindBody(item.text() + ", or a list of them", any_of(item.schema(), list.schema()),
-                 item.tables()),
+                 item.tables(), item.numbers()),
         item_(item),
         list_(list),
         access_(access) {}
@@ -140,7 +141,9 @@ class OneOrListKind : public KindBody {
 class MaybeKind : public KindBody {
  public:
   MaybeKind(const AnyKind& kind, OptionalAccess access)
-      : KindBody(kind.text(), kind.schema(), kind.tables()), kind_(kind), access_(access) {}
+      : KindBody(kind.text(), kind.schema(), kind.tables(), kind.numbers()),
+        kind_(kind),
+        access_(access) {}
 
   bool read(void* optional, const Node& node, ReadContext& context) const override {
     if (kind_.read_into(access_.emplace(optional), node, context)) return true;
@@ -170,7 +173,8 @@ class EitherKind : public KindBody {
   EitherKind(bool (*suits)(const Node&), const AnyKind& first, const AnyKind& second,
              VariantAccess access)
       : KindBody(first.text() + ", or " + second.text(), any_of(first.schema(), second.schema()),
-                 joined(first.tables(), second.tables())),
+                 joined(first.tables(), second.tables()),
+                 first.numbers().form != Numbers::Form::kNone ? first.numbers() : second.numbers()),
         suits_(suits),
         first_(first),
         second_(second),

@@ -190,6 +190,7 @@ Kind<double> number(Range range) {
         return value;
       },
       .write = [](const double& value) -> Json { return value; },
+      .numbers = {Numbers::Form::kScalar, "1"},
   });
 }
 

@@ -42,6 +42,7 @@ class AnyKind {
   const Json& schema() const;       // JSON Schema draft-07 fragment
   /// The maps a value may hold, for the reference.
   const std::vector<const TableInfo*>& tables() const;
+  const Numbers& numbers() const;
 
   /// Report what is wrong and return false; else `value`, which is of the kind's type, is read.
   bool read_into(void* value, const Node& node, ReadContext& context) const;

@@ -16,8 +16,11 @@ namespace twincraft {
 
 /// What AnyKind shares. A value is behind a pointer to the type that the maker knows.
 struct KindBody {
-  KindBody(std::string words, Json fragment, std::vector<const TableInfo*> maps)
-      : text(std::move(words)), schema(std::move(fragment)), tables(std::move(maps)) {}
+  KindBody(std::string words, Json fragment, std::vector<const TableInfo*> maps, Numbers made_of)
+      : text(std::move(words)),
+        schema(std::move(fragment)),
+        tables(std::move(maps)),
+        numbers(std::move(made_of)) {}
   KindBody(const KindBody&) = delete;
   KindBody& operator=(const KindBody&) = delete;
   virtual ~KindBody() = default;
@@ -33,6 +36,7 @@ struct KindBody {
   const std::string text;
   const Json schema;
   const std::vector<const TableInfo*> tables;
+  const Numbers numbers;
 };
 
 template <class V>
@@ -42,13 +46,15 @@ struct KindParts {
   std::function<std::optional<V>(const Node&, ReadContext&)> read;
   std::function<Json(const V&)> write;
   std::vector<const TableInfo*> tables = {};
+  Numbers numbers = {};
 };
 
 template <class V>
 class OwnKind : public KindBody {
  public:
   explicit OwnKind(KindParts<V> parts)
-      : KindBody(std::move(parts.text), std::move(parts.schema), std::move(parts.tables)),
+      : KindBody(std::move(parts.text), std::move(parts.schema), std::move(parts.tables),
+                 std::move(parts.numbers)),
         read_(std::move(parts.read)),
         write_(std::move(parts.write)) {}
 

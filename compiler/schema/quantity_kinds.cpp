@@ -162,13 +162,20 @@ Kind<double> unjudged_quantity(SiUnit si, Range range) {
         return value;
       },
       .write = [](const double& value) -> Json { return value; },
+      .numbers = {Numbers::Form::kScalar, std::string(si)},
   });
+}
+
+/// Those of a list of quantities where the kind itself knows of none.
+Numbers numbers_of(const AnyKind& kind, const std::string& unit) {
+  const bool is_plain_list = kind.numbers().form == Numbers::Form::kNone;
+  return is_plain_list ? Numbers{Numbers::Form::kScalar, unit} : kind.numbers();
 }
 
 class JudgedKind : public KindBody {
  public:
   JudgedKind(const AnyKind& kind, std::string unit, const Usual& usual)
-      : KindBody(kind.text(), kind.schema(), kind.tables()),
+      : KindBody(kind.text(), kind.schema(), kind.tables(), numbers_of(kind, unit)),
         kind_(kind),
         unit_(std::move(unit)),
         usual_(usual) {}
@@ -276,6 +283,7 @@ Kind<Vector3d> vector3(SiUnit si) {
                           read_entry);
       },
       .write = vector_json,
+      .numbers = {Numbers::Form::kVector, unit},
   });
   return judged(kind, si, usual_of(si));  // of `{value: .., unit: ..}` nothing is bare
 }
@@ -286,6 +294,7 @@ Kind<Vector3d> direction() {
       .schema = list_schema(number_schema(Range::kAny), 3, 3),
       .read = read_direction,
       .write = vector_json,
+      .numbers = {Numbers::Form::kDirection, "1"},
   });
 }
 
@@ -296,6 +305,7 @@ Kind<Matrix3d> inertia() {
       .schema = listing_schema(any_of(row, list_schema(row, 3, 3)), "kg m2"),
       .read = read_inertia,
       .write = write_inertia,
+      .numbers = {Numbers::Form::kInertia, "kg m2"},
   });
   return judged(kind, "kg m2", {});
 }

@@ -28,6 +28,20 @@ struct ReadContext {
   std::string owner = {};  // "wheel `rw_x`": what nested maps belong to
 };
 
+/// What numbers a value is made of, as it is written resolved: for those who compute with values of
+/// any key.
+struct Numbers {
+  enum class Form {
+    kNone,       // something else: a count, a word, a name, a map
+    kScalar,     // a number, or a list of them
+    kVector,     // three numbers along axes
+    kDirection,  // the same, of length one
+    kInertia     // three moments, or three rows of three
+  };
+  Form form = Form::kNone;
+  std::string unit = {};  // SI
+};
+
 /// What numbers are allowed beyond being finite.
 enum class Range { kAny, kNotNegative, kPositive };
 

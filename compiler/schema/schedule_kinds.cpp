@@ -196,6 +196,7 @@ Kind<Schedule> schedule(SiUnit si, Range range) {
         return schedule;
       },
       .write = write_schedule,
+      .numbers = {Numbers::Form::kScalar, std::string(si)},
   });
 }
 
@@ -211,6 +212,7 @@ Kind<std::array<Schedule, 3>> schedule3(SiUnit si) {
         for (const Schedule& component : components) list.push_back(write_schedule(component));
         return list;
       },
+      .numbers = {Numbers::Form::kVector, std::string(si)},
   });
 }
 

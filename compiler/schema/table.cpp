@@ -15,12 +15,6 @@
 namespace twincraft {
 namespace {
 
-const FieldInfo* find_field(const TableInfo& info, const std::string& key) {
-  const auto field = std::find_if(info.fields.begin(), info.fields.end(),
-                                  [&key](const FieldInfo& one) { return one.key == key; });
-  return field == info.fields.end() ? nullptr : &*field;
-}
-
 std::vector<std::string> known_keys(const TableInfo& info) {
   std::vector<std::string> keys;
   for (const FieldInfo& field : info.fields) keys.push_back(field.key);
@@ -158,6 +152,12 @@ std::string own_name(const Node& map) {
 
 }  // namespace
 
+const FieldInfo* find_field(const TableInfo& info, std::string_view key) {
+  const auto field = std::find_if(info.fields.begin(), info.fields.end(),
+                                  [key](const FieldInfo& one) { return one.key == key; });
+  return field == info.fields.end() ? nullptr : &*field;
+}
+
 FieldInfo required_field(std::string key, std::string doc, std::string kind, Json schema,
                          std::vector<const TableInfo*> tables) {
   FieldInfo field;
@@ -284,6 +284,7 @@ void AnyTable::add(const AnyField& field, const void* defaults) {
   const AnyKind& kind = field.kind;
   FieldInfo info = required_field(std::string(field.key), std::string(field.doc), kind.text(),
                                   kind.schema(), kind.tables());
+  info.numbers = kind.numbers();
   if (!field.required)
     make_optional(info, kind.write_from(static_cast<const char*>(defaults) + field.offset));
   body_->info.fields.push_back(std::move(info));
@@ -353,7 +354,7 @@ namespace {
 class ObjectKind : public KindBody {
  public:
   explicit ObjectKind(const AnyTable& table)
-      : KindBody(table.name(), table.schema(), {&table.info()}), table_(table) {}
+      : KindBody(table.name(), table.schema(), {&table.info()}, {}), table_(table) {}
 
   bool read(void* value, const Node& node, ReadContext& context) const override {
     table_.reset(value);

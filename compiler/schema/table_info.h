@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "compiler/schema/reading.h"
@@ -19,6 +20,7 @@ struct FieldInfo {
   Json schema;
   std::optional<Json> default_value;  // as it would be written; nothing: absent or required
   std::vector<const TableInfo*> tables;
+  Numbers numbers = {};
 };
 
 /// Keys of one map of which only one may be written, or exactly one must be.
@@ -34,6 +36,8 @@ struct TableInfo {
   std::vector<KeyGroup> groups;
 };
 
+/// The field of `key`; null when there is none.
+const FieldInfo* find_field(const TableInfo& info, std::string_view key);
 /// "wheel `rw_x`", "hinge of panel `wing_p`", "hub": how messages call this map.
 std::string label_of(const TableInfo& info, const Node& map, const ReadContext& outer);
 /// Whether `map` is one and has the keys it should; what is wrong is reported.
