@@ -14,6 +14,7 @@
 #include "compiler/ir/digest.h"
 #include "compiler/schema/manual.h"
 #include "compiler/schema/partial.h"
+#include "compiler/spec/campaign_members.h"
 #include "compiler/spec/spec.h"
 #include "compiler/syntax/extends.h"
 #include "compiler/syntax/load.h"
@@ -226,6 +227,14 @@ struct Changed {
   Changed& operator=(const Changed&) = delete;
 };
 
+/// What a study asks of every flight. Where the spec gives no model, compiling it tells why.
+void add_outputs(const Spec& spec, StudyPlan& plan, Diagnostics& diagnostics) {
+  if (spec.study->outputs.empty()) return;
+  Diagnostics known;
+  if (const std::optional<Model> model = lower(spec, known))
+    plan.outputs = plan_of(spec.study->outputs, *model, diagnostics);
+}
+
 /// Spec to bundle. @param changes  that made the spec what it is
 std::optional<Bundle> bundle_of(const Spec& spec, const Origin& origin,
                                 const std::vector<Override>& changes, const Wanted& wanted,
@@ -297,12 +306,14 @@ struct LoadedSpec::Parts {
   Tree tree;
   Spec spec;  // points into the tree
   std::optional<StudyMembers> study;
-  std::shared_ptr<const Base> alone;    // without its study: what variants are made of
-  std::shared_ptr<const Base> members;  // what members are made of
+  std::optional<CampaignMembers> campaign;
+  std::shared_ptr<const Base> alone;    // without study and campaign: what variants are made of
+  std::shared_ptr<const Base> members;  // what members of a study are made of
 
   void make_bases() {
     Node root = tree.root;
     remove_key(root, "study");
+    remove_key(root, "campaign");
     alone = members = std::make_shared<const Base>(root);
     if (!study || !study->plan.is_work_precision) return;
     remove_tolerances(root);
@@ -336,6 +347,9 @@ LoadResult load_spec(const CompileRequest& request, Diagnostics& diagnostics) {
   if (!spec) return {};
   parts->spec = std::move(*spec);
   if (parts->spec.study) parts->study = members_of(*parts->spec.study, diagnostics);
+  if (parts->study) add_outputs(parts->spec, parts->study->plan, diagnostics);
+  if (parts->spec.campaign) parts->campaign = members_of(parts->spec, diagnostics);
+  if (diagnostics.has_errors()) return {};
   parts->make_bases();
   return {.spec = LoadedSpec(parts)};
 }
@@ -354,6 +368,25 @@ std::optional<Bundle> LoadedSpec::member(std::size_t index, const Wanted& wanted
   diagnostics.keep(parts_->texts);
   return parts_->compile_changed(*parts_->members, parts_->study->overrides(index), wanted,
                                  diagnostics);
+}
+
+const CampaignPlan* LoadedSpec::campaign() const {
+  return parts_->campaign ? &parts_->campaign->plan : nullptr;
+}
+
+std::vector<double> LoadedSpec::drawn(std::size_t index) const {
+  return parts_->campaign->drawn(index);
+}
+
+std::optional<Bundle> LoadedSpec::campaign_member(std::size_t index, const Wanted& wanted,
+                                                  Diagnostics& diagnostics) const {
+  return variant(parts_->campaign->settings(index), wanted, diagnostics);
+}
+
+std::vector<std::string> LoadedSpec::campaign_settings(std::size_t index) const {
+  std::vector<std::string> settings = parts_->campaign->settings(index);
+  settings.insert(settings.begin(), "campaign=null");
+  return settings;
 }
 
 std::optional<Bundle> LoadedSpec::variant(const std::vector<std::string>& overrides,

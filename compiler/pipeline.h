@@ -13,6 +13,7 @@
 
 #include "compiler/diag/diagnostics.h"
 #include "compiler/ir/bundle.h"
+#include "compiler/ir/campaign.h"
 
 namespace twincraft {
 
@@ -50,11 +51,23 @@ class LoadedSpec {
   /// @pre index < study()->members
   std::optional<Bundle> member(std::size_t index, const Wanted& wanted,
                                Diagnostics& diagnostics) const;
-  /// Report what is wrong with the members beyond what is wrong with the spec itself, short of
-  /// compiling them to the end. @pre compile() gave a bundle
+  /// Its campaign; nothing when the spec has none. The spec itself is the nominal vehicle.
+  const CampaignPlan* campaign() const;
+  /// The numbers drawn for a member, in the order of campaign()->drawn, SI.
+  /// @pre index < campaign()->members, here and below
+  std::vector<double> drawn(std::size_t index) const;
+  /// The member as a vehicle; nothing when what was drawn gives none.
+  std::optional<Bundle> campaign_member(std::size_t index, const Wanted& wanted,
+                                        Diagnostics& diagnostics) const;
+  /// What makes the member of the spec, `PATH=VALUE` each: given by `--set` it flies that member
+  /// alone, to the last digit.
+  std::vector<std::string> campaign_settings(std::size_t index) const;
+
+  /// Report what is wrong with the members of a study beyond what is wrong with the spec itself,
+  /// short of compiling them to the end. @pre compile() gave a bundle
   void check_members(Diagnostics& diagnostics, const MemberProgress& progress = {}) const;
 
-  /// The spec with further changes, without its study.
+  /// The spec with further changes, without its study or campaign.
   /// @param overrides  `PATH=VALUE`, after those of the command line
   std::optional<Bundle> variant(const std::vector<std::string>& overrides, const Wanted& wanted,
                                 Diagnostics& diagnostics) const;

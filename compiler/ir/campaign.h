@@ -16,7 +16,7 @@ enum class Sampling { kRandom, kLatinHypercube, kSobol };
 struct DrawnNumber {
   std::string name;          // full path: `wheels.w.speed`, `hub.inertia.xy`, `initial.attitude.x`
   std::string unit;          // SI; `1` where there is none
-  std::string distribution;  // as a reader would say it: `normal, sigma 2 %, truncated at 3 sigma`
+  std::string distribution;  // in its own words: `normal, sigma 2 %, truncate 3`
   double nominal = 0.0;      // SI
 };
 
@@ -26,8 +26,8 @@ enum class Reduce {
   kMaxAbs,
   kMaxNorm,  // of a vector
   kFinal,
-  kMean,  // over time
-  kRms,   // over time
+  kMean,           // over time
+  kRms,            // over time
   kSettlingTime,   // from when on it stays within `within` of its final value
   kFirstCrossing,  // when it first passes `level`
 };
@@ -37,9 +37,9 @@ struct OutputPlan {
   std::string name;    // of the column
   std::string signal;  // one of outputs_of(): a number, or with kMaxNorm a vector
   Reduce reduce = Reduce::kFinal;
-  double within = 0.0;  // SI, of kSettlingTime
-  double level = 0.0;   // SI, of kFirstCrossing
-  std::string unit;     // SI, of the result
+  double within = 0.0;                 // SI, of kSettlingTime
+  double level = 0.0;                  // SI, of kFirstCrossing
+  std::string unit;                    // SI, of the result
   std::optional<double> below, above;  // what it must be, SI
 };
 

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "compiler/ir/campaign.h"
+
 namespace twincraft {
 
 /// A change to the spec: by the command line or by a study.
@@ -28,6 +30,7 @@ struct StudyPlan {
   // Every member is held, engine by engine, against the one that has the first value of this path
   // and all else equal; of a zip, against the first member.
   std::optional<std::size_t> compare = {};  // its place in `paths`
+  std::vector<OutputPlan> outputs = {};     // of a sweep
 
   /// The member that `member` is held against: itself where it has the first value.
   /// @pre compare; paths and lengths are of one size

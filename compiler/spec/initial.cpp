@@ -81,10 +81,15 @@ void check(const InitialSpec& initial, const EnvironmentSpec& environment,
   check(*initial.attitude, deep_space ? nullptr : &point, diagnostics);
 }
 
+Quaterniond attitude(const InitialSpec& initial, const EnvironmentSpec& environment) {
+  return initial.attitude ? orientation(*initial.attitude, start(initial, environment))
+                          : Quaterniond::Identity();
+}
+
 void lower(const InitialSpec& initial, const EnvironmentSpec& environment, Model& model) {
   const PointState point = start(initial, environment);
   VehicleState& state = model.initial;
-  if (initial.attitude) state.q_BN = orientation(*initial.attitude, point);
+  state.q_BN = attitude(initial, environment);
   state.omega_BN_B = initial.rate;
   state.r_BN_N = point.r_N;
   state.v_BN_N = point.v_N;

@@ -27,6 +27,9 @@ const Table<InitialSpec>& initial_table();
 void check(const InitialSpec& initial, const EnvironmentSpec& environment,
            Diagnostics& diagnostics);
 
+/// How B is turned from N at t = 0. @pre check passed
+Quaterniond attitude(const InitialSpec& initial, const EnvironmentSpec& environment);
+
 /// Place B. @pre the model has all its links and their initial coordinates
 void lower(const InitialSpec& initial, const EnvironmentSpec& environment, Model& model);
 

@@ -29,7 +29,7 @@ bool names_stored(const Spec& spec) {
 }
 
 const Table<Spec>& spec_table() {
-  static const Table<Spec> table{
+  static const Table<Spec> table = Table<Spec>{
       "spec",
       "One spacecraft, its surroundings, and the run that compares both engines on it. A plain "
       "number is in SI units; a text such as `12 deg` carries its unit. Quotes "
@@ -75,7 +75,9 @@ const Table<Spec>& spec_table() {
                    "States computed elsewhere, for `references: [stored]`."),
           optional("study", &Spec::study, maybe(object(study_table())),
                    "Run many variants of this spec instead of one."),
-      }};
+          optional("campaign", &Spec::campaign, maybe(object(campaign_table())),
+                   "Run many members with drawn values instead of one."),
+      }}.at_most_one_of({"study", "campaign"});
   return table;
 }
 

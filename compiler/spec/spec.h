@@ -9,6 +9,7 @@
 
 #include "compiler/components/vehicle.h"
 #include "compiler/spec/agreement.h"
+#include "compiler/spec/campaign.h"
 #include "compiler/spec/engines.h"
 #include "compiler/spec/environment.h"
 #include "compiler/spec/initial.h"
@@ -33,6 +34,7 @@ struct Spec : Written, Vehicle {
   std::vector<ReferenceKind> references;
   std::optional<StoredSpec> stored;
   std::optional<StudySpec> study;
+  std::optional<CampaignSpec> campaign;
 };
 
 const Table<Spec>& spec_table();

@@ -4,46 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "compiler/ir/number.h"
-#include "compiler/schema/own_kind.h"
+#include "compiler/spec/as_written.h"
 
 namespace twincraft {
 namespace {
-
-/// A node as JSON: plain numbers as numbers, everything else as the text it is.
-Json json_of(const Node& node) {
-  switch (node.kind) {
-    case Node::Kind::kNull:
-      return nullptr;
-    case Node::Kind::kScalar: {
-      Json number =
-          node.quoted ? Json(Json::value_t::discarded) : Json::parse(node.scalar, nullptr, false);
-      return number.is_number() ? number : Json(node.scalar);
-    }
-    case Node::Kind::kList: {
-      Json list = Json::array();
-      for (const Node& item : node.items) list.push_back(json_of(item));
-      return list;
-    }
-    case Node::Kind::kMap:
-      break;
-  }
-  Json map = Json::object();
-  for (std::size_t i = 0; i < node.keys.size(); ++i)
-    map[node.keys[i].name] = json_of(node.items[i]);
-  return map;
-}
-
-/// Whatever the path that is set takes; it is read when the member is.
-Kind<Node> any_value() {
-  return own_kind<Node>({
-      .text = "value",
-      .schema = Json::object(),
-      .read = [](const Node& node, ReadContext&) -> std::optional<Node> { return node; },
-      .write = json_of,
-  });
-}
 
 Kind<Method> method() {
   return one_of<Method>({{"euler", Method::kEuler},
@@ -123,17 +90,6 @@ const Table<WorkPrecisionSpec>& work_precision_table() {
                    "How far the truth can be trusted."),
       }};
   return table;
-}
-
-/// The place of the path's own letters: quotes are no part of it.
-Span path_span(const Written& where) {
-  const Node* node = where.node->find("set");
-  Span span = node->span;
-  if (node->quoted) {
-    span.column += 1;
-    span.length -= 2;
-  }
-  return span;
 }
 
 std::vector<std::string> study_path(const std::string& set, Span span, Diagnostics& diagnostics) {
@@ -244,26 +200,32 @@ std::optional<std::size_t> compared_path(const StudySpec& study, Diagnostics& di
 }  // namespace
 
 const Table<StudySpec>& study_table() {
-  static const Table<StudySpec> table = Table<StudySpec>{
-      "study",
-      "Many runs of this spec that differ in the values at a few paths. `scsim` runs all "
-      "members; `sccompile` checks them (the first 10000, fewer of a large spec) and emits the "
-      "spec itself.",
-      {
-          optional("sweep", &StudySpec::sweep, list_of(object(sweep_table()), 1),
-                   "Paths and their values."),
-          optional("combine", &StudySpec::combine,
-                   one_of<Combine>({{"grid", Combine::kGrid}, {"zip", Combine::kZip}}),
-                   "`grid`: every combination, the last path varies fastest. `zip`: the "
-                   "first values together, then the second ones."),
-          optional("compare", &StudySpec::compare, maybe(text()),
-                   "One of the swept paths. Every member is also held, each engine against itself, "
-                   "against the member that has the first value of this path and all else equal "
-                   "(`zip`: against the first member). What should make no difference to the "
-                   "motion then shows what it makes to an engine."),
-          optional("work_precision", &StudySpec::work_precision,
-                   maybe(object(work_precision_table())), "What accuracy costs."),
-      }}.exactly_one_of({"sweep", "work_precision"});
+  static const Table<StudySpec> table =
+      Table<StudySpec>{
+          "study",
+          "Many runs of this spec that differ in the values at a few paths. `scsim` runs all "
+          "members; `sccompile` checks them (the first 10000, fewer of a large spec) and emits the "
+          "spec itself.",
+          {
+              optional("sweep", &StudySpec::sweep, list_of(object(sweep_table()), 1),
+                       "Paths and their values."),
+              optional("combine", &StudySpec::combine,
+                       one_of<Combine>({{"grid", Combine::kGrid}, {"zip", Combine::kZip}}),
+                       "`grid`: every combination, the last path varies fastest. `zip`: the "
+                       "first values together, then the second ones."),
+              optional(
+                  "compare", &StudySpec::compare, maybe(text()),
+                  "One of the swept paths. Every member is also held, each engine against itself, "
+                  "against the member that has the first value of this path and all else equal "
+                  "(`zip`: against the first member). What should make no difference to the "
+                  "motion then shows what it makes to an engine."),
+              optional("work_precision", &StudySpec::work_precision,
+                       maybe(object(work_precision_table())), "What accuracy costs."),
+              optional("outputs", &StudySpec::outputs, list_of(object(output_table())),
+                       "Of a sweep: numbers that are made of every member's flight."),
+          }}
+          .exactly_one_of({"sweep", "work_precision"})
+          .at_most_one_of({"work_precision", "outputs"});
   return table;
 }
 

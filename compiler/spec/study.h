@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "compiler/ir/study.h"
+#include "compiler/spec/outputs.h"
 #include "compiler/spec/simulation.h"
 #include "compiler/syntax/overrides.h"
 
@@ -53,6 +54,7 @@ struct StudySpec : Written {
   Combine combine = Combine::kGrid;
   std::optional<std::string> compare;  // one of the swept paths
   std::optional<WorkPrecisionSpec> work_precision;
+  std::vector<OutputSpec> outputs;  // of a sweep; planned when the model is there
 };
 
 const Table<StudySpec>& study_table();

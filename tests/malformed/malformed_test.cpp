@@ -73,6 +73,7 @@ TEST(MalformedCorpus, HasNothingLeftOver) {
 const std::map<Code, std::string>& unreachable() {
   static const std::map<Code, std::string> reasons{
       {Code::kTooLarge, "needs 200 000 values or 4 MiB; load_test makes them"},
+      {Code::kCampaignSobol, "needs 3668 drawn numbers; campaign_test makes them"},
       {Code::kUnresolvedStep, "is said by `--check` alone; sccompile_test asks for it"},
   };
   return reasons;
