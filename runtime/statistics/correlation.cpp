@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 namespace twincraft::statistics {
@@ -43,6 +44,13 @@ double p_value_of(double coefficient, std::size_t count) {
   return 2.0 * cdf(complement(boost::math::students_t_distribution<double>(freedom), t));
 }
 
+std::vector<double> whole(std::span<const double> values) {
+  std::vector<double> numbers;
+  std::ranges::remove_copy_if(values, std::back_inserter(numbers),
+                              [](double value) { return std::isnan(value); });
+  return numbers;
+}
+
 /// The rows of some columns that have no hole, as a matrix.
 MatrixXd whole_rows(std::span<const std::span<const double>> columns) {
   std::vector<std::size_t> whole;
@@ -67,6 +75,26 @@ std::optional<RankCorrelation> spearman(std::span<const double> x, std::span<con
   const double coefficient = std::clamp(a.dot(b), -1.0, 1.0);
   const auto count = static_cast<std::size_t>(rows.rows());
   return RankCorrelation{count, coefficient, p_value_of(coefficient, count)};
+}
+
+std::optional<RankDifference> rank_difference(std::span<const double> first,
+                                              std::span<const double> second) {
+  std::vector<double> values = whole(first);
+  const auto of_first = static_cast<Index>(values.size());
+  const std::vector<double> others = whole(second);
+  values.insert(values.end(), others.begin(), others.end());
+  const auto all = static_cast<Index>(values.size());
+  if (of_first == 0 || of_first == all) return std::nullopt;
+  const VectorXd ranks = ranks_of(VectorXd::Map(values.data(), all));
+  const auto n = static_cast<double>(all), n1 = static_cast<double>(of_first), n2 = n - n1;
+  // The spread of ranks that ties leave: n (n^2 - 1) / 12 without any.
+  const double spread = (ranks.array() - 0.5 * (n + 1.0)).square().sum();
+  if (!(spread > 0.0)) return std::nullopt;
+  const double pairs = n1 * n2;
+  const double u = ranks.head(of_first).sum() - 0.5 * n1 * (n1 + 1.0);
+  const double deviation = std::sqrt(pairs * spread / (n * (n - 1.0)));
+  const double z = std::max(0.0, std::abs(u - 0.5 * pairs) - 0.5) / deviation;
+  return RankDifference{u / pairs, std::erfc(z / std::numbers::sqrt2)};
 }
 
 std::optional<Regression> standardised_regression(std::span<const std::span<const double>> inputs,

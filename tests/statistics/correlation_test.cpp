@@ -144,5 +144,47 @@ TEST(Regression, OfNoInputsExplainsNothing) {
   EXPECT_EQ(found->r_squared, 0.0);
 }
 
+/// The permeability of membranes (Hollander and Wolfe 1973, page 69; the example of R's
+/// wilcox.test): W = 35, and p by R with exact = FALSE.
+TEST(RankDifference, HasThePublishedValue) {
+  const Values term = {0.80, 0.83, 1.89, 1.04, 1.45, 1.38, 1.91, 1.64, 0.73, 1.46};
+  const Values early = {1.15, 0.88, 0.90, 0.74, 1.21};
+  const auto found = rank_difference(term, early);
+  ASSERT_TRUE(found.has_value());
+  EXPECT_DOUBLE_EQ(found->larger, 35.0 / 50.0);
+  EXPECT_NEAR(found->p_value, std::erfc(9.5 / std::sqrt(50.0 * 16.0 / 12.0) / std::sqrt(2.0)),
+              1e-12);
+  EXPECT_DOUBLE_EQ(rank_difference(early, term)->larger, 15.0 / 50.0);
+  EXPECT_DOUBLE_EQ(rank_difference(early, term)->p_value, found->p_value);
+}
+
+TEST(RankDifference, CountsTiesHalfAndLeavesHolesOut) {
+  // Pairs of {1, 2} with {1, 3}: one tie, one larger, two smaller.
+  const auto found = rank_difference(Values{1, kHole, 2}, Values{kHole, 1, 3});
+  EXPECT_DOUBLE_EQ(found->larger, 1.5 / 4.0);
+  EXPECT_DOUBLE_EQ(found->p_value, 1.0);  // 2 - 1.5 is no more than the correction
+}
+
+TEST(RankDifference, IsNothingWithoutTwoGroupsOrWithoutADifference) {
+  EXPECT_FALSE(rank_difference(Values{}, Values{1.0}));
+  EXPECT_FALSE(rank_difference(Values{1.0}, Values{kHole}));
+  EXPECT_FALSE(rank_difference(Values{1, 1}, Values{1}));
+}
+
+/// With this p, 5 % of groups of one distribution seem different. Ties included.
+TEST(RankDifference, FindsWhatIsNotThereAsOftenAsItSays) {
+  std::mt19937_64 random(3);
+  std::uniform_int_distribution<int> roll(1, 20);
+  const auto draw = [&](std::size_t count) {
+    Values values(count);
+    for (double& value : values) value = roll(random);
+    return values;
+  };
+  int found = 0;
+  constexpr int kTrials = 4000;
+  for (int i = 0; i < kTrials; ++i) found += rank_difference(draw(12), draw(40))->p_value < 0.05;
+  EXPECT_NEAR(found / static_cast<double>(kTrials), 0.05, 0.012);
+}
+
 }  // namespace
 }  // namespace twincraft::statistics
