@@ -15,6 +15,19 @@ PassRate pass_rate(std::size_t passed, std::size_t of) {
   return {passed, of, statistics::clopper_pearson(passed, of, kConfidence)};
 }
 
+constexpr double kCoverage = 0.95;
+
+std::optional<double> upper_bound(std::span<const double> rising) {
+  const auto bound = statistics::tolerance_bound(rising, kCoverage, kConfidence);
+  return bound ? std::optional(bound->value) : std::nullopt;
+}
+
+/// As far from the least value as the other is from the greatest.
+std::optional<double> lower_bound(std::span<const double> rising) {
+  const auto bound = statistics::tolerance_bound(rising, kCoverage, kConfidence);
+  return bound ? std::optional(rising[bound->rank - 1]) : std::nullopt;
+}
+
 /// A word that is a number, as 12.5 and -1e+06, perhaps with a mark behind it.
 bool is_number(std::string_view word) {
   const std::size_t sign = word.starts_with('-') || word.starts_with('+') ? 1 : 0;
@@ -60,6 +73,9 @@ OutputSummary summarise_output(const CampaignTable& table, std::size_t column,
           at(0.5),
           at(0.95),
           at(1.0),
+          statistics::quantile_bounds(rising, 0.95, kConfidence),
+          upper_bound(rising),
+          lower_bound(rising),
           pass_rate(passed, flown),
           pass_rate(passed, members)};
 }

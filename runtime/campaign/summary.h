@@ -3,11 +3,13 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "runtime/campaign/table.h"
 #include "runtime/statistics/proportion.h"
+#include "runtime/statistics/sample.h"
 
 namespace twincraft {
 
@@ -22,6 +24,10 @@ struct PassRate {
 struct OutputSummary {
   std::size_t count = 0;                                 // flown members with a value
   double min = 0.0, median = 0.0, p95 = 0.0, max = 0.0;  // of these, SI; NaN where there are none
+  statistics::Bounds p95_bounds;  // of the percentile, by order statistics, 95 %
+  // With 95 % confidence, 95 % of all that could be drawn are below the one, and 95 % are above the
+  // other (Wilks). Nothing: fewer than 59 values.
+  std::optional<double> tolerance_upper, tolerance_lower;
   // Of an output that is required:
   PassRate flown;  // of the members that were flown
   PassRate all;    // of all members: those that were not flown hold nothing
