@@ -1,14 +1,14 @@
-// A campaign for people: the spread of its outputs, how often requirements hold, and what went
-// wrong.
+// A campaign for people: the spread of its outputs, how often requirements hold, what drives them,
+// and what went wrong.
 #pragma once
 
 #include <string>
 
-#include "runtime/campaign/merge.h"
+#include "runtime/report/campaign_report.h"
 
 namespace twincraft {
 
 /// Ends with a line end.
-std::string campaign_table(const MergedCampaign& campaign);
+std::string campaign_table(const CampaignReport& report);
 
 }  // namespace twincraft

@@ -27,22 +27,6 @@ Json spec_json(const Bundle& bundle) {
           {"degrees_of_freedom", bundle.model.degrees_of_freedom()}};
 }
 
-Json provenance_json(const Provenance& provenance) {
-  return {{"program", provenance.program},
-          {"git", provenance.git},
-          {"compiler", provenance.compiler},
-          {"flags", provenance.flags},
-          {"mujoco", provenance.mujoco},
-          {"eigen", provenance.eigen},
-          {"instructions", provenance.instructions},
-          {"instructions_reason", provenance.instructions_reason},
-          {"instructions_available", provenance.instructions_available},
-          {"cpu", provenance.cpu},
-          {"cores", provenance.cores},
-          {"load_average",
-           provenance.load_average < 0.0 ? Json(nullptr) : Json(provenance.load_average)}};
-}
-
 /// A setting's value as JSON when it reads as such (`0.02`), else as the text it is (`10 s`).
 Json settings_json(const std::vector<Setting>& all) {
   Json settings = Json::object();
@@ -203,6 +187,20 @@ void print_times(const PrintedTime& printed, Json& json) {
   }
 }
 
+Json outputs_json(const std::vector<OutputValue>& outputs) {
+  const auto number = [](const std::optional<double>& value) {
+    return value ? Json(*value) : Json(nullptr);
+  };
+  Json json = Json::object();
+  for (const OutputValue& output : outputs) {
+    Json& one = json[output.name] = {{"value", number(output.value)}, {"unit", output.unit}};
+    if (output.below) one["below"] = *output.below;
+    if (output.above) one["above"] = *output.above;
+    if (output.below || output.above) one["pass"] = output.holds;
+  }
+  return json;
+}
+
 Json member_json(const ReportedMember& member) {
   const Member& result = member.result;
   Json json{{"verdict", verdict_name(result.verdict())},
@@ -216,6 +214,7 @@ Json member_json(const ReportedMember& member) {
   json["agreement"] = result.comparison ? agreement_json(*result.comparison) : Json::object();
   if (result.comparison) json["same_sample_times"] = result.comparison->same_times;
   if (member.against) json["against"] = against_json(*member.against);
+  if (!member.outputs.empty()) json["outputs"] = outputs_json(member.outputs);
   json["conservation"] = conservation_json(result.conservation);
   json["references"] = references_json(result.references);
   if (result.resolution) json["resolution"] = resolution_json(result);
@@ -321,6 +320,22 @@ std::string text_of(const Json& json) {
 }
 
 }  // namespace
+
+Json provenance_json(const Provenance& provenance) {
+  return {{"program", provenance.program},
+          {"git", provenance.git},
+          {"compiler", provenance.compiler},
+          {"flags", provenance.flags},
+          {"mujoco", provenance.mujoco},
+          {"eigen", provenance.eigen},
+          {"instructions", provenance.instructions},
+          {"instructions_reason", provenance.instructions_reason},
+          {"instructions_available", provenance.instructions_available},
+          {"cpu", provenance.cpu},
+          {"cores", provenance.cores},
+          {"load_average",
+           provenance.load_average < 0.0 ? Json(nullptr) : Json(provenance.load_average)}};
+}
 
 Json report_value(const Report& report) {
   Json json = frame_value(report);

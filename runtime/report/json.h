@@ -9,6 +9,9 @@
 
 namespace twincraft {
 
+/// Which program and machine made a report, as all kinds of report.json have it.
+nlohmann::ordered_json provenance_json(const Provenance& provenance);
+
 /// What the file holds of `report.members`, for printers that show it otherwise.
 nlohmann::ordered_json report_value(const Report& report);
 

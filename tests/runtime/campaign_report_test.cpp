@@ -1,4 +1,5 @@
 // A campaign as CSV and as text for people.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -7,6 +8,7 @@
 #include "runtime/report/campaign_csv.h"
 #include "runtime/report/campaign_table.h"
 #include "tests/campaign/handmade.h"
+#include "tests/runtime/handmade_campaign_report.h"
 
 namespace twincraft {
 namespace {
@@ -15,6 +17,7 @@ using test::campaign_header;
 using test::failed_member;
 using test::member_record;
 using testing::HasSubstr;
+using testing::Not;
 
 MergedCampaign merged(const std::vector<MemberRecord>& records, std::size_t members,
                       const RecordsHeader& header = campaign_header()) {
@@ -27,6 +30,12 @@ MergedCampaign merged(const std::vector<MemberRecord>& records, std::size_t memb
   std::optional<MergedCampaign> campaign = std::move(merge).finish(error);
   EXPECT_EQ(error, "");
   return std::move(*campaign);
+}
+
+std::string text_of(MergedCampaign campaign) {
+  CampaignReport report{std::move(campaign), {}, {}};
+  report.findings = find_all(report.campaign, report.plan, {false, false});
+  return campaign_table(report);
 }
 
 std::string csv(const MergedCampaign& campaign) {
@@ -67,7 +76,7 @@ TEST(CampaignTableText, ShowsSpreadRequirementsAndFailures) {
   records[0].twin = Verdict::kAgree;
   records.push_back(failed_member(200, "`x` is absurd: 3 m"));
   EXPECT_EQ(
-      campaign_table(merged(records, 205)),
+      text_of(merged(records, 205)),
       "quickstart: 200 of 205 members flown\n"
       "\n"
       "  output  unit  min  median  p95    max    requirement  held by flown                    "
@@ -80,21 +89,36 @@ TEST(CampaignTableText, ShowsSpreadRequirementsAndFailures) {
       "  Brackets: 95 % confidence (Clopper-Pearson). `all` counts members that were not flown as "
       "broken.\n"
       "\n"
+      "  peak follows hub.mass (rank 1.00)\n"
+      "  worst peak: 0.199 rad in member 199\n"
       "  1 not flown: `x` is absurd: .. m (first: member 200)\n"
       "  missing: members 201-204\n"
       "  flown by both engines: 1; agree: 1; disagree: 0\n");
 }
 
+TEST(CampaignTableText, NamesDriversWithTheirIndicesAndTheCommandOfTheWorst) {
+  CampaignReport report = test::campaign_report(300);
+  const OutputFindings& peak = report.findings.outputs[0];
+  const std::string text = campaign_table(report);
+  EXPECT_THAT(text, HasSubstr(fmt::format("  peak follows hub.mass (rank {:.2f}, Sobol' {:.2f}), ",
+                                          peak.drivers.drivers[0].rank->coefficient,
+                                          peak.drivers.drivers[0].sobol_first->value)));
+  EXPECT_THAT(text, Not(HasSubstr("panels.p.stiffness")));  // no more than chance
+  EXPECT_THAT(text,
+              HasSubstr(fmt::format(" rad in member {}\n    scsim 'models/my tug.yaml' --set ",
+                                    peak.worst[0].member)));
+}
+
 TEST(CampaignTableText, IsShortWhereNothingIsRequired) {
   RecordsHeader header = campaign_header();
   header.outputs[0].below.reset();
-  const std::string text = campaign_table(merged({member_record(0)}, 1, header));
-  EXPECT_THAT(text, testing::Not(HasSubstr("requirement")));
+  const std::string text = text_of(merged({member_record(0)}, 1, header));
+  EXPECT_THAT(text, Not(HasSubstr("requirement")));
   EXPECT_THAT(text, HasSubstr("  touch   s     -    -       -    -\n"));
   header.outputs.clear();
   MemberRecord bare = member_record(0);
   bare.outputs.clear();
-  EXPECT_EQ(campaign_table(merged({bare}, 1, header)), "quickstart: 1 of 1 members flown\n\n");
+  EXPECT_EQ(text_of(merged({bare}, 1, header)), "quickstart: 1 of 1 members flown\n\n");
 }
 
 }  // namespace
