@@ -3,12 +3,9 @@
 import assert from "node:assert/strict";
 import { readFileSync, statSync, writeFileSync } from "node:fs";
 import { createHash } from "node:crypto";
-import { createRequire } from "node:module";
 import { join } from "node:path";
 import { after, before, describe, test } from "node:test";
-import { launch, open, report, run, scratch, seeAll, seen, shoot } from "./support.mjs";
-
-const axe = createRequire(import.meta.url).resolve("axe-core/axe.min.js");
+import { faultsOf, launch, open, report, run, scratch, seeAll, seen, shoot } from "./support.mjs";
 
 let browser;
 before(async () => { browser = await launch(); });
@@ -22,17 +19,6 @@ const numbersOf = (page, label) => page.evaluate((name) => Object.fromEntries(
 /** A picture's fingerprint. */
 const canvasBytes = async (page, selector) =>
   createHash("sha256").update(await page.evaluate((s) => document.querySelector(s).toDataURL(), selector)).digest("hex");
-
-/** No dependence on the page's scripts: axe is put in by the test, past the page's policy. */
-async function faultsOf(page) {
-  const client = await page.context().newCDPSession(page);
-  await client.send("Page.setBypassCSP", { enabled: true });
-  const source = readFileSync(axe, "utf8");
-  await page.evaluate(source);
-  const result = await page.evaluate(() => window.axe.run(document, { resultTypes: ["violations"] }));
-  return result.violations.filter((v) => ["serious", "critical"].includes(v.impact))
-    .map((v) => `${v.id}: ${v.nodes.slice(0, 3).map((n) => n.html.slice(0, 120)).join(" | ")}`);
-}
 
 describe("the quickstart's report", () => {
   let made;

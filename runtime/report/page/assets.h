@@ -5,9 +5,10 @@
 
 namespace twincraft::assets {
 
-std::string_view page();    // with @PLACES@ for the rest
-std::string_view style();   // ours
-std::string_view script();  // ours, all files in one
+std::string_view page();      // with @PLACES@ for the rest
+std::string_view style();     // ours
+std::string_view licences();  // of the libraries below, with @PLACES@ too
+std::string_view script();           // ours, all files in one
 
 // Debian's builds of well-known libraries, and the terms they come under.
 std::string_view dygraphs();

@@ -30,8 +30,8 @@ std::string_view without_source_map(std::string_view text) {
 }
 
 /// Files in one scope of their own.
-std::string our_script() {
-  return fmt::format("(() => {{\n\"use strict\";\n{}}})();\n", assets::script());
+std::string our_script(std::string_view files) {
+  return fmt::format("(() => {{\n\"use strict\";\n{}}})();\n", files);
 }
 
 class Policy {
@@ -100,6 +100,12 @@ std::string filled(std::string_view page, const Places& places) {
   }
 }
 
+/// Of the libraries in a page.
+std::string licences() {
+  return filled(assets::licences(), {{"DYGRAPHS_LICENCE", html_escaped(assets::dygraphs_licence())},
+                                     {"THREE_LICENCE", html_escaped(assets::three_licence())}});
+}
+
 }  // namespace
 
 std::string html_escaped(std::string_view text) {
@@ -136,15 +142,15 @@ std::string report_html(const Report& report) {
       policy.style(without_source_map(assets::dygraphs_style())) + policy.style(assets::style());
   places["SCRIPTS"] = policy.script(without_source_map(assets::dygraphs())) + "\n" +
                       policy.script(without_source_map(assets::three())) + "\n" +
-                      policy.script(assets::orbit_controls()) + "\n" + policy.script(our_script());
+                      policy.script(assets::orbit_controls()) + "\n" +
+                      policy.script(our_script(assets::script()));
   places["POLICY"] = policy.text();
   places["NAME"] = html_escaped(first.bundle.model.name);
   places["DESCRIPTION"] = html_escaped(first.bundle.model.description);
   places["VERDICT"] = html_escaped(verdict_words(report));
   places["VERDICT_KEY"] = verdict_name(report.verdict());
   places["PLAIN"] = html_escaped(plain_text(report));
-  places["DYGRAPHS_LICENCE"] = html_escaped(assets::dygraphs_licence());
-  places["THREE_LICENCE"] = html_escaped(assets::three_licence());
+  places["LICENCES"] = licences();
   places["DATA"] = page_data(report);
   return filled(assets::page(), places);
 }

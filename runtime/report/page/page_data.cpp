@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "runtime/report/json.h"
+#include "runtime/report/page/inline_json.h"
 #include "runtime/report/page/page_series.h"
 #include "runtime/report/page/replay_data.h"
 #include "runtime/report/words.h"
@@ -53,18 +54,6 @@ Json words_json(const Report& report, const Json& shown) {
   return words;
 }
 
-/// In JSON a `<` stands in strings alone, where it may be written otherwise.
-std::string without_tags(std::string_view json) {
-  std::string safe;
-  safe.reserve(json.size() + json.size() / 64);
-  for (std::size_t tag = json.find('<'); tag != std::string_view::npos; tag = json.find('<')) {
-    safe += json.substr(0, tag);
-    safe += "\\u003c";
-    json.remove_prefix(tag + 1);
-  }
-  return safe += json;
-}
-
 }  // namespace
 
 std::string page_data(const Report& report) {
@@ -88,7 +77,7 @@ std::string page_data(const Report& report) {
             {"replay", replay_json(first)},
             {kMjcf, first.bundle.text(kMjcf)},
             {kResolved, first.bundle.text(kResolved)}};
-  return without_tags(json.dump(-1, ' ', false, Json::error_handler_t::replace));
+  return inline_json(json);
 }
 
 }  // namespace twincraft

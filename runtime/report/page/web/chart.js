@@ -32,6 +32,7 @@ class SharedTime {
 }
 
 const sharedTime = new SharedTime();
+document.addEventListener("repaint", () => sharedTime.charts.forEach((chart) => chart.redraw()));
 
 // The page names curves itself; dygraphs' own legend writes styles that the page's policy forbids.
 Dygraph.PLUGINS = Dygraph.PLUGINS.filter((/** @type {any} */ plugin) => plugin !== Dygraph.Plugins.Legend);
