@@ -66,7 +66,7 @@ const std::map<std::string, Rooms> kArrows = {
       "runtime/simulate", "runtime/study"}},
     {"runtime/report/page",
      {"compiler/ir", "runtime/compare", "runtime/engine", "runtime/report", "runtime/simulate",
-      "runtime/study"}},
+      "runtime/statistics", "runtime/study"}},
     // Where both meet: a spec flown, in process.
     {"runtime/delivery",
      {"compiler", "compiler/diag", "compiler/files", "compiler/ir", "compiler/syntax",

@@ -8,7 +8,9 @@ namespace twincraft::assets {
 std::string_view page();      // with @PLACES@ for the rest
 std::string_view style();     // ours
 std::string_view licences();  // of the libraries below, with @PLACES@ too
-std::string_view script();           // ours, all files in one
+// Ours, all files in one: of a run or a study, and of a campaign.
+std::string_view script();
+std::string_view campaign_script();
 
 // Debian's builds of well-known libraries, and the terms they come under.
 std::string_view dygraphs();

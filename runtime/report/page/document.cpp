@@ -8,9 +8,11 @@
 #include <stdexcept>
 
 #include "runtime/report/attribution_table.h"
+#include "runtime/report/campaign_table.h"
 #include "runtime/report/judgement.h"
 #include "runtime/report/page/assets.h"
 #include "runtime/report/page/base64.h"
+#include "runtime/report/page/campaign_data.h"
 #include "runtime/report/page/page_data.h"
 #include "runtime/report/study_table.h"
 #include "runtime/report/table.h"
@@ -152,6 +154,22 @@ std::string report_html(const Report& report) {
   places["PLAIN"] = html_escaped(plain_text(report));
   places["LICENCES"] = licences();
   places["DATA"] = page_data(report);
+  return filled(assets::page(), places);
+}
+
+std::string campaign_html(const CampaignReport& report) {
+  Policy policy;
+  Places places;
+  places["STYLES"] = policy.style(assets::style());
+  places["SCRIPTS"] = policy.script(our_script(assets::campaign_script()));
+  places["POLICY"] = policy.text();
+  places["NAME"] = html_escaped(report.campaign.table.header().name);
+  places["DESCRIPTION"] = html_escaped(report.description);
+  places["VERDICT"] = html_escaped(verdict_words(report));
+  places["VERDICT_KEY"] = verdict_name(report.verdict);
+  places["PLAIN"] = html_escaped(campaign_table(report));
+  places["LICENCES"] = "";
+  places["DATA"] = campaign_page_data(report);
   return filled(assets::page(), places);
 }
 

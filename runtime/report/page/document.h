@@ -7,12 +7,16 @@
 #include <string>
 #include <string_view>
 
+#include "runtime/report/campaign_report.h"
 #include "runtime/study/results.h"
 
 namespace twincraft {
 
 /// @pre report.members.front() still has its samples and texts
 std::string report_html(const Report& report);
+
+/// The same of a campaign, without a replay: it needs no library.
+std::string campaign_html(const CampaignReport& report);
 
 /// `<`, `>`, `&` and quotes as entities.
 std::string html_escaped(std::string_view text);
