@@ -157,7 +157,7 @@ def strings_of(file: Path) -> set[str]:
         return set()
 
 
-def wait_until(holds: Callable[[], bool], what: str, limit: float = 90.0) -> None:
+def wait_until(holds: Callable[[], bool], what: str, limit: float = 180.0) -> None:
     """Returns once it holds; fails after the limit [s]."""
     end = time.monotonic() + limit
     while not holds():

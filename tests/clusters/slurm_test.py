@@ -28,13 +28,28 @@ def exit_codes(slurm: Slurm, job: str) -> dict[int, int]:
     return {number: task.exit_code for number, task in slurm.wait(job).items()}
 
 
+# What takes Slurm long is submitted first and looked at last; the other tests run meanwhile.
+
+
 @pytest.fixture(scope="module", autouse=True)
 def out_of_time(slurm: Slurm, tmp_path_factory: pytest.TempPathFactory) -> tuple[Campaign, str]:
-    """A campaign of about 33 s and its job, submitted first: Slurm looks every 30 s for what comes to its
-    limit, and the other tests run meanwhile."""
+    """A campaign of 33 s and its job, which Slurm signals within 30 s: so often it looks at limits."""
     campaign = Campaign(tmp_path_factory.mktemp("limit"), members=66, seconds=0.5).write()
     job = submit(slurm, campaign, "1", 1, signal="B:USR1@60", options=("--time=1",))
     return campaign, job
+
+
+@pytest.fixture(scope="module", autouse=True)
+def requeued(slurm: Slurm, tmp_path_factory: pytest.TempPathFactory) -> tuple[Campaign, str, str]:
+    """A campaign, its job and that of its merge. Task 1 is requeued as after a preemption, task 3 as before
+    its limit. It is the last task, which Slurm knows by the number of the whole array."""
+    campaign = Campaign(tmp_path_factory.mktemp("requeued"), members=30, seconds=0.2).write()
+    job = submit(slurm, campaign, "1-3")
+    merge = submit_merge(slurm, campaign, job)
+    wait_until(campaign.has_begun, "a member is finished")
+    slurm.signal(f"{job}_3", "USR1")
+    slurm.requeue(f"{job}_1")
+    return campaign, job, merge
 
 
 def test_the_commands_of_the_page_fly_and_merge(slurm: Slurm, campaign: Campaign):
@@ -64,13 +79,8 @@ def test_shards_killed_and_cancelled_are_submitted_again_alone(slurm: Slurm, cam
     assert campaign.is_as_flown_alone()
 
 
-# Task 3 is the last: Slurm knows it by the number of the whole array. Task 1 is as after a preemption.
-def test_shards_go_on_when_requeued_and_the_merge_waits_for_them(slurm: Slurm, campaign: Campaign):
-    job = submit(slurm, campaign, "1-3")
-    merge = submit_merge(slurm, campaign, job)
-    wait_until(campaign.has_begun, "a member is finished")
-    slurm.signal(f"{job}_3", "USR1")
-    slurm.requeue(f"{job}_1")
+def test_the_merge_waits_for_shards_that_are_requeued(slurm: Slurm, requeued: tuple[Campaign, str, str]):
+    campaign, job, merge = requeued
     assert exit_codes(slurm, merge) == {0: 0}
     assert exit_codes(slurm, job) == {1: 0, 2: 0, 3: 0}
     assert {number: task.restarts for number, task in slurm.tasks(job).items()} == {1: 1, 2: 0, 3: 1}
@@ -79,8 +89,9 @@ def test_shards_go_on_when_requeued_and_the_merge_waits_for_them(slurm: Slurm, c
 
 def test_a_shard_that_comes_to_its_limit_is_requeued(slurm: Slurm, out_of_time: tuple[Campaign, str]):
     campaign, job = out_of_time
-    tasks = slurm.wait(job)
-    assert (tasks[1].state, tasks[1].restarts) == ("COMPLETED", 1)
+    (task,) = slurm.wait(job).values()
+    assert task.state == "COMPLETED"
+    assert task.restarts >= 1  # again on a machine so busy that Slurm looks a second time
     assert campaign.merge() == 0
     assert campaign.is_as_flown_alone()
 
