@@ -37,7 +37,8 @@ class Batch::Group {
 class Batch::Together final : public Group {
  public:
   Together(const CompiledModel& model, const bsm::Plan& plan)
-      : model_(model), flight_(model.model(), plan) {}
+      : model_(model),
+        flight_(std::vector(LanesFlight::lanes(), LanesFlight::Craft{&model.model(), &plan})) {}
 
   double time() const override { return flight_.time(); }
   void step(std::size_t count) override {

@@ -215,6 +215,39 @@ bool are_alike(const LimbPlan& a, const LimbPlan& b) {
                     like_chains);
 }
 
+namespace {
+
+bool are_alike(const LinkConstants& a, const LinkConstants& b) {
+  return a.parent == b.parent && a.kind == b.kind && a.damped_by_cosine_of == b.damped_by_cosine_of;
+}
+
+bool are_alike(const Draining& a, const Draining& b) {
+  const auto tank_of = [](const Draining::Part& part) { return part.tank; };
+  return a.link == b.link && a.is_point == b.is_point &&
+         std::ranges::equal(a.parts, b.parts, {}, tank_of, tank_of);
+}
+
+bool are_alike(const Stream& a, const Stream& b) {
+  return a.nozzle == b.nozzle && a.links() == b.links();
+}
+
+}  // namespace
+
+bool are_alike(const Plan& a, const Plan& b) {
+  const auto alike = [](const auto& x, const auto& y) { return are_alike(x, y); };
+  const auto is_balanced = [](const Plan& plan) {
+    return plan.tree.links.front().first_moment.isZero(0.0);
+  };
+  const auto link_of = [](const auto& rotor) { return rotor.link; };
+  return a.chart == b.chart && a.law == b.law && a.tree.tanks == b.tree.tanks &&
+         is_balanced(a) == is_balanced(b) && a.hub.elements.size() == b.hub.elements.size() &&
+         std::ranges::equal(a.tree.links, b.tree.links, alike) &&
+         std::ranges::equal(a.tree.rotors, b.tree.rotors, {}, link_of, link_of) &&
+         std::ranges::equal(a.tree.draining, b.tree.draining, alike) &&
+         std::ranges::equal(a.forces.streams, b.forces.streams, alike) &&
+         std::ranges::equal(a.limbs, b.limbs, alike);
+}
+
 double Plan::mass() const {
   double sum = 0.0;
   for (const LinkConstants& link : tree.links) sum += link.mass;

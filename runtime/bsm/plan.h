@@ -69,6 +69,10 @@ struct Plan {
   std::size_t planar_links() const;
 };
 
+/// The same structure, whatever the constants: such vehicles can be flown in lanes, and none of
+/// them flies otherwise for what the others are.
+bool are_alike(const Plan& a, const Plan& b);
+
 /// @param loads, forces  what may act on a link, which excludes it from the planar path
 /// @param paths  kGeneral: sliding points too take the way that serves any tree
 Plan make_plan(const Assembly& assembly, AttitudeChart chart, const Gravity& gravity,

@@ -1,5 +1,6 @@
-// As many spacecraft of one model as an instruction holds, side by side on their way by a method of
-// fixed steps: what Flight is for one. Nothing of them drains.
+// As many spacecraft as an instruction holds, side by side on their way by a method of fixed steps:
+// what Flight is for one. They are of one structure, nothing of them drains, and none flies
+// otherwise for what the others are.
 // Tested by tests/api/batch_test.cpp.
 #pragma once
 
@@ -23,15 +24,35 @@ class LanesFlight {
   /// Why they have to be flown one by one; empty: they need not.
   static std::string refusal(const Model& model);
 
-  /// All at t = 0. `model` must outlive it. @param plan  made of it @pre no refusal()
-  LanesFlight(const Model& model, const bsm::Plan& plan);
+  /// One spacecraft, and the plan made of it. Both must outlive what flies them.
+  struct Craft {
+    const Model* model = nullptr;
+    const bsm::Plan* plan = nullptr;
+  };
+  /// Whether they may fly side by side: alike, and landing at the same instants.
+  /// @pre no refusal() of either
+  static bool fit(const Craft& a, const Craft& b);
+
+  struct Options {
+    bool has_end = false;  // at the duration, which all have, else never
+    bsm::InstructionSet instructions = bsm::fastest_instruction_set(bsm::Use::kBatch);
+  };
+  /// All at t = 0. The last one repeats in the lanes that are left.
+  /// @pre 1 to as many of them as `instructions` have lanes; each fits the first
+  explicit LanesFlight(std::span<const Craft> crafts) : LanesFlight(crafts, Options{}) {}
+  LanesFlight(std::span<const Craft> crafts, Options options);
   ~LanesFlight();
   LanesFlight(const LanesFlight&) = delete;
   LanesFlight& operator=(const LanesFlight&) = delete;
 
+  /// By default.
   static std::size_t lanes();
 
-  double time() const { return time_; }  // [s]
+  double time() const { return time_; }                       // [s]
+  double tolerance() const { return landings_.tolerance(); }  // [s] closer instants are one
+  bool done() const { return landings_.done(); }
+  /// To the next landing. @pre not done(), here and below
+  void advance();
   /// To the next point of the grid k * step, event by event.
   void advance_on_grid();
 
@@ -53,7 +74,9 @@ class LanesFlight {
 
   void find_failures();
 
-  const Model& model_;
+  const Model& model(std::size_t lane) const { return *crafts_[lane].model; }
+
+  std::vector<Craft> crafts_;  // of each lane
   StateLayout layout_;
   std::vector<InputFeed> feeds_;  // of each lane
   std::vector<bsm::HeldInputs> held_;
