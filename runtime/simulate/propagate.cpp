@@ -2,56 +2,14 @@
 // Tested by tests/runtime/propagate_test.cpp.
 #include "runtime/simulate/propagate.h"
 
-#include <fmt/format.h>
-
 #include <chrono>
-#include <cmath>
 #include <limits>
 #include <utility>
 
-#include "runtime/reference/stored.h"
+#include "runtime/simulate/samples.h"
 
 namespace twincraft {
 namespace {
-
-// No wheel, hinge or hub turns a hundred million radians a second, nothing outruns light, and no
-// slide is longer than a thousand kilometres: such a state is finite and still no motion.
-constexpr double kAbsurdRate = 1.0e8;          // [rad/s]
-constexpr double kAbsurdSpeed = 2.998e8;       // [m/s]
-constexpr double kAbsurdDisplacement = 1.0e6;  // [m]
-
-void refuse_absurd(const Observation& seen, const Model& model) {
-  const auto refuse = [](const std::string& name, double value, std::string_view unit) {
-    throw NumericalFailure(fmt::format("`{}` is absurd: {:.3g} {}", name, value, unit));
-  };
-  if (!(seen.omega_BN_B.norm() < kAbsurdRate))
-    refuse("omega_BN_B", seen.omega_BN_B.norm(), "rad/s");
-  if (!(seen.v_BN_N.norm() < kAbsurdSpeed)) refuse("v_BN_N", seen.v_BN_N.norm(), "m/s");
-  for (const Coordinate& coordinate : model.coordinates) {
-    const CoordinateQuantity& quantity = coordinate.quantity();
-    const bool slides = coordinate.is_length();
-    const double rate = rate_of(coordinate, seen);
-    if (!(std::abs(rate) < (slides ? kAbsurdSpeed : kAbsurdRate)))
-      refuse(coordinate.name + ".rate", rate, quantity.rate_unit);
-    if (slides && !(std::abs(position_of(coordinate, seen)) < kAbsurdDisplacement))
-      refuse(coordinate.name + ".position", position_of(coordinate, seen), quantity.unit);
-  }
-}
-
-/// Which landings are recorded.
-class Recorder {
- public:
-  Recorder(double interval, double tolerance) : interval_(interval), tolerance_(tolerance) {}
-  bool is_due(double time) const { return time >= next_ - tolerance_; }
-  void recorded(double time) {
-    next_ = (std::floor((time + tolerance_) / interval_) + 1.0) * interval_;
-  }
-
- private:
-  double interval_;
-  double tolerance_;
-  double next_ = 0.0;
-};
 
 class Progress {
  public:
@@ -79,7 +37,7 @@ class RecordedRun::Recording {
         sink_(sink),
         options_(std::move(options)),
         flight_(engine, model, {.keeps_books = true}),
-        recorder_(model.simulation.record, flight_.tolerance()),
+        due_(model, flight_.tolerance()),
         progress_(options_.progress) {
     guarded([this] {
       record();
@@ -122,8 +80,7 @@ class RecordedRun::Recording {
     while (flight_.time() < until && !flight_.done() && !stopped()) {
       flight_.advance(options_.stop);
       trajectory_.t_end = flight_.time();
-      if (recorder_.is_due(flight_.time()) || is_stored_time(model_.stored, flight_.time()))
-        record();
+      if (due_.at(flight_.time())) record();
       if (flight_.time() >= next_instant_) capture_instants();
       progress_.at(flight_.time());
     }
@@ -142,7 +99,7 @@ class RecordedRun::Recording {
     refuse_absurd(last_, model_);
     last_books_ = flight_.books();
     ++trajectory_.recorded;
-    recorder_.recorded(flight_.time());
+    due_.taken(flight_.time());
     sink_.take(last_, last_books_);
   }
 
@@ -162,7 +119,7 @@ class RecordedRun::Recording {
   SampleSink& sink_;
   PropagateOptions options_;
   Flight flight_;
-  Recorder recorder_;
+  SampleTimes due_;
   Progress progress_;
   Trajectory trajectory_;
   Observation last_;  // taken

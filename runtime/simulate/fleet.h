@@ -1,0 +1,41 @@
+// Vehicles that differ in their numbers, flown by the analytic engine and sampled as a recorded run
+// is: side by side in lanes where their structure lets them. Which of them fly together makes no
+// difference to any. Tested by tests/runtime/fleet_test.cpp.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "compiler/ir/bundle.h"
+#include "runtime/bsm/kernel.h"
+#include "runtime/engine/observation.h"
+
+namespace twincraft {
+
+/// One of them. What it refers to must outlive the flight.
+struct FleetMember {
+  const Bundle* bundle = nullptr;
+  /// Takes a sample; false: it need not fly on.
+  std::function<bool(const Observation& sample)> take;
+};
+
+struct FleetEnd {
+  double time = 0.0;            // [s] of the last sample
+  std::string failure = {};     // numerical: what, when and which coordinate; empty: none
+  bool is_interrupted = false;  // by `stop`
+};
+
+struct FleetOptions {
+  const std::atomic<bool>* stop = nullptr;  // set by a signal handler
+  bsm::InstructionSet instructions = bsm::fastest_instruction_set(bsm::Use::kBatch);
+};
+
+/// Flies each to the end of its plan, or to where it has failed or need not fly on.
+/// @return in the order of `members`
+std::vector<FleetEnd> fly_fleet(std::span<const FleetMember> members,
+                                const FleetOptions& options = {});
+
+}  // namespace twincraft
