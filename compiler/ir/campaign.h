@@ -18,6 +18,9 @@ struct DrawnNumber {
   std::string unit;          // SI; `1` where there is none
   std::string distribution;  // in its own words: `normal, sigma 2 %, truncate 3`
   double nominal = 0.0;      // SI
+  // It moves with no other, as correlated numbers, components of a direction or of an inertia, and
+  // numbers that are drawn together do.
+  bool is_independent = true;
 };
 
 enum class Reduce {

@@ -127,7 +127,9 @@ class Planner {
     const std::vector<double> nominals = nominal_numbers(place);
     const std::string words = words_of(dispersion);
     for (std::size_t i = 0; i < suffixes.size(); ++i)
-      members_.plan.drawn.push_back({place.path + suffixes[i], place.unit, words, nominals[i]});
+      members_.plan.drawn.push_back(
+          {place.path + suffixes[i], place.unit, words, nominals[i],
+           !dispersion.together && (is_scalar || place.form == Form::kAttitude)});
     members_.places.push_back({std::move(place), draw, begin});
   }
 
@@ -174,6 +176,9 @@ class Planner {
       if (!first || !second) continue;
       if (is_pair_of_its_own(written, *first, *second, pairs))
         pairs.push_back({*first, *second, written.rho});
+      for (DrawnNumber& number : members_.plan.drawn)
+        if (number.name == written.first || number.name == written.second)
+          number.is_independent = false;
     }
     if (pairs.empty() || pairs.size() < campaign_.correlate.size()) return;
     members_.copula = draws::Copula::of(pairs);

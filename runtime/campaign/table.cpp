@@ -74,6 +74,13 @@ std::string CampaignTable::settle(std::size_t count) {
   return {};
 }
 
+void CampaignTable::take_twin(std::size_t row, Verdict verdict, const std::string& reason) {
+  verdicts_[row] = twins_[row] = static_cast<std::uint8_t>(verdict);
+  if (reason.empty()) return;
+  std::string& all = reasons_[row];
+  all += all.empty() ? reason : "; " + reason;
+}
+
 bool CampaignTable::is_same(std::size_t row, std::size_t other) const {
   const auto is_same_in = [row, other](const std::vector<double>& column) {
     return is_same_number(column[row], column[other]);

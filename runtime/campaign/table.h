@@ -32,6 +32,9 @@ class CampaignTable {
   /// with other results: only `seconds` may differ
   std::string settle(std::size_t count);
 
+  /// Both engines flew a member after all: its verdict, and what is added to its reason.
+  void take_twin(std::size_t row, Verdict verdict, const std::string& reason);
+
   const RecordsHeader& header() const { return header_; }
   std::size_t rows() const { return members_.size(); }
   std::span<const std::size_t> members() const { return members_; }  // of each row

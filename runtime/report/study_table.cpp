@@ -107,6 +107,14 @@ std::string against_cell(const ReportedMember& member, std::string_view engine) 
   return "-";
 }
 
+/// With a mark where it breaks what is required of it.
+std::string output_cell(const ReportedMember& member, std::size_t i) {
+  if (i >= member.outputs.size()) return "-";
+  const OutputValue& output = member.outputs[i];
+  const std::string value = output.value ? quantity(*output.value, output.unit) : "never";
+  return output.holds ? value : value + " BROKEN";
+}
+
 /// The columns of a sweep: heading and what each member has in it.
 struct Column {
   std::string heading;
@@ -132,6 +140,9 @@ std::vector<Column> columns_of(const Report& report) {
       columns.push_back(
           {fmt::format("{} by itself", engine.label),
            [key = engine.key](const ReportedMember& member) { return against_cell(member, key); }});
+  for (std::size_t i = 0; i < report.study->outputs.size(); ++i)
+    columns.push_back({report.study->outputs[i].name,
+                       [i](const ReportedMember& member) { return output_cell(member, i); }});
   if (report.summary()->is_judged()) columns.push_back({"worst, of tolerance", worst_cell});
   const std::vector<ReferenceRun>& references = report.members.front().result.references;
   if (!references.empty())

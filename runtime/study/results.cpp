@@ -17,6 +17,8 @@ void ReportedMember::shed() {
 }
 
 void StudyRecord::add(const ReportedMember& member) {
+  for (const OutputValue& output : member.outputs)
+    breaks_requirements_ = breaks_requirements_ || !output.holds;
   const Member& result = member.result;
   if (result.complete) ++complete_;
   ++verdicts_[result.verdict()];

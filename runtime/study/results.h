@@ -28,6 +28,14 @@ struct Baseline {
   std::vector<std::string> failed = {};  // engines that failed in the baseline
 };
 
+/// A number that a study asks of a member's flight, see OutputPlan; SI.
+struct OutputValue {
+  std::string name, unit;
+  std::optional<double> value;         // nothing: never reached
+  std::optional<double> below, above;  // what is required of it
+  bool holds = true;
+};
+
 class PageSeries;  // runtime/report/page/page_series.h: of no meaning here
 
 /// One member of a study and what made it.
@@ -35,7 +43,8 @@ struct ReportedMember {
   Bundle bundle;
   std::vector<Setting> settings;
   Member result;
-  std::optional<Baseline> against = {};  // when the study compares its members
+  std::optional<Baseline> against = {};   // when the study compares its members
+  std::vector<OutputValue> outputs = {};  // that the study asks for, of the analytic engine
   // What the page draws of the samples; nothing: it is made of those that were kept.
   std::shared_ptr<const PageSeries> series = {};
 
@@ -57,8 +66,9 @@ class StudyRecord {
   std::size_t count(Verdict verdict) const;
   /// Of the first member that has some.
   const std::vector<JudgedFigure>& exceeded() const { return exceeded_; }
-  bool is_judged() const { return is_judged_; }                // something had a tolerance
-  bool judges_agreement() const { return judges_agreement_; }  // of every member
+  bool is_judged() const { return is_judged_; }                      // something had a tolerance
+  bool judges_agreement() const { return judges_agreement_; }        // of every member
+  bool breaks_requirements() const { return breaks_requirements_; }  // some member does
   const StudyPoints& points() const { return points_; }
 
  private:
@@ -66,7 +76,7 @@ class StudyRecord {
   std::size_t complete_ = 0;
   std::map<Verdict, std::size_t> verdicts_;
   std::vector<JudgedFigure> exceeded_;
-  bool is_judged_ = false, judges_agreement_ = true;
+  bool is_judged_ = false, judges_agreement_ = true, breaks_requirements_ = false;
   StudyPoints points_;
 };
 

@@ -60,7 +60,8 @@ const std::map<std::string, Rooms> kArrows = {
       "runtime/linear", "runtime/reference", "runtime/simulate", "mujoco"}},
     {"runtime/statistics", {}},
     {"runtime/campaign",
-     {"compiler/ir", "runtime/compare", "runtime/engine", "runtime/statistics"}},
+     {"compiler/ir", "runtime/bsm", "runtime/compare", "runtime/engine", "runtime/simulate",
+      "runtime/statistics", "runtime/study"}},
     {"runtime/report",
      {"compiler/ir", "runtime/campaign", "runtime/compare", "runtime/engine", "runtime/integrate",
       "runtime/simulate", "runtime/study"}},
@@ -70,8 +71,9 @@ const std::map<std::string, Rooms> kArrows = {
     // Where both meet: a spec flown, in process.
     {"runtime/delivery",
      {"compiler", "compiler/diag", "compiler/files", "compiler/ir", "compiler/syntax",
-      "compiler/units", "runtime/bsm", "runtime/compare", "runtime/engine", "runtime/linear",
-      "runtime/report", "runtime/report/page", "runtime/simulate", "runtime/study"}},
+      "compiler/units", "runtime/bsm", "runtime/campaign", "runtime/compare", "runtime/engine",
+      "runtime/linear", "runtime/report", "runtime/report/page", "runtime/simulate",
+      "runtime/study"}},
     // And what strangers see of it.
     {"runtime/api",
      {"compiler", "compiler/analysis", "compiler/diag", "compiler/ir", "compiler/units",

@@ -1,6 +1,7 @@
 #include "runtime/report/page/inline_json.h"
 
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 namespace twincraft {
 
@@ -10,8 +11,13 @@ std::string inline_json(const nlohmann::ordered_json& json) {
   std::string safe;
   safe.reserve(text.size() + text.size() / 64);
   // In JSON a `<` stands in strings alone, where it may be written so.
-  for (const char c : text) c == '<' ? (safe += "\\u003c") : (safe += c);
-  return safe;
+  std::string_view rest = text;
+  for (std::size_t tag = rest.find('<'); tag != std::string_view::npos; tag = rest.find('<')) {
+    safe += rest.substr(0, tag);
+    safe += "\\u003c";
+    rest.remove_prefix(tag + 1);
+  }
+  return safe += rest;
 }
 
 }  // namespace twincraft

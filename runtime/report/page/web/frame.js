@@ -15,7 +15,7 @@ function provenance() {
   const { provenance: p, spec } = page.report;
   const rows = { spec: spec.file, "SHA-256": spec.sha256, program: p.git ? `${p.program}, ${p.git}` : p.program,
     compiler: `${p.compiler}, ${p.flags}`, MuJoCo: p.mujoco, Eigen: p.eigen,
-    "instruction set": p.instructions, machine: [p.cpu, `${p.cores} cores`, p.load_average === null ? "" : `load ${p.load_average.toFixed(2)}`].filter(Boolean).join(", ") };
+    "instruction set": `${p.instructions} of ${p.instructions_available.join(", ")}: ${p.instructions_reason}`, machine: [p.cpu, `${p.cores} cores`, p.load_average === null ? "" : `load ${p.load_average.toFixed(2)}`].filter(Boolean).join(", ") };
   return [html("h2", {}, "Provenance"),
     html("dl", {}, ...Object.entries(rows).flatMap(([key, value]) => [html("dt", {}, key), html("dd", {}, String(value))])),
     page.report.complete ? null : html("p", { class: "problem" }, "The run was not completed; this is what was computed.")];

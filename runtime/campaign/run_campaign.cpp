@@ -1,0 +1,205 @@
+// See run_campaign.h.
+#include "runtime/campaign/run_campaign.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "runtime/bsm/kernel.h"
+#include "runtime/campaign/reductions.h"
+#include "runtime/simulate/fleet.h"
+#include "runtime/study/in_order.h"
+
+namespace twincraft {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+void add_reason(std::string& reason, const std::string& further) {
+  if (further.empty()) return;
+  if (!reason.empty()) reason += "; ";
+  reason += further;
+}
+
+/// A member on its way to its record.
+class Flyer {
+ public:
+  Flyer(std::size_t member, const CampaignPlan& plan, Bundle bundle)
+      : member_(member),
+        bundle_(std::move(bundle)),
+        outputs_(bundle_.model, plan.outputs),
+        watch_(bundle_.model, plan.stops) {}
+
+  std::size_t member() const { return member_; }
+
+  FleetMember in_fleet() {
+    return {&bundle_, [this](const Observation& sample) {
+              outputs_.take(sample);
+              stopped_ = watch_.reason(sample);
+              return stopped_.empty();
+            }};
+  }
+
+  void fill(const FleetEnd& end, std::span<const OutputColumn> columns, MemberRecord& record) {
+    if (!end.failure.empty()) {
+      record.verdict = Verdict::kFailed;
+      record.reason = end.failure;
+      return;
+    }
+    record.outputs = outputs_.results();
+    record.reason = stopped_;
+    add_reason(record.reason, broken_requirements(columns, record.outputs));
+  }
+
+ private:
+  std::size_t member_;
+  Bundle bundle_;
+  OutputReducer outputs_;
+  StopWatch watch_;
+  std::string stopped_;
+};
+
+/// Members that one thread flies at a time.
+class Squad {
+ public:
+  Squad(const CampaignRun& run, const RunOptions& options, std::vector<OutputColumn> columns)
+      : run_(run), options_(options), columns_(std::move(columns)) {}
+
+  /// Without those that a stop has interrupted.
+  std::vector<MemberRecord> fly(std::span<const std::size_t> members) const {
+    const Clock::time_point start = Clock::now();
+    std::vector<MemberRecord> records;
+    std::vector<std::unique_ptr<Flyer>> flyers;  // null: the record says why
+    for (const std::size_t member : members) {
+      MemberRecord& record = records.emplace_back(empty_record(member));
+      flyers.push_back(begin(member, record));
+    }
+    const std::vector<std::size_t> interrupted = fly_together(flyers, records);
+    const std::chrono::duration<double> spent = Clock::now() - start;
+    for (MemberRecord& record : records)
+      record.seconds = spent.count() / static_cast<double>(members.size());
+    return finish(std::move(records), interrupted);
+  }
+
+ private:
+  MemberRecord empty_record(std::size_t member) const {
+    MemberRecord record;
+    record.member = member;
+    record.drawn = run_.drawn(member);
+    record.outputs.resize(columns_.size());
+    return record;
+  }
+
+  std::unique_ptr<Flyer> begin(std::size_t member, MemberRecord& record) const {
+    MemberSpec spec = run_.compile(member, false);
+    if (spec.bundle) return std::make_unique<Flyer>(member, run_.plan, std::move(*spec.bundle));
+    record.verdict = Verdict::kFailed;
+    record.reason = spec.refusal;
+    return nullptr;
+  }
+
+  /// @return places of those that were interrupted
+  std::vector<std::size_t> fly_together(const std::vector<std::unique_ptr<Flyer>>& flyers,
+                                        std::vector<MemberRecord>& records) const {
+    std::vector<FleetMember> fleet;
+    std::vector<std::size_t> places, interrupted;
+    for (std::size_t i = 0; i < flyers.size(); ++i) {
+      if (!flyers[i]) continue;
+      fleet.push_back(flyers[i]->in_fleet());
+      places.push_back(i);
+    }
+    const std::vector<FleetEnd> ends = fly_fleet(fleet, {options_.stop, options_.instructions.set});
+    for (std::size_t k = 0; k < ends.size(); ++k) {
+      if (ends[k].is_interrupted)
+        interrupted.push_back(places[k]);
+      else
+        flyers[places[k]]->fill(ends[k], columns_, records[places[k]]);
+    }
+    return interrupted;
+  }
+
+  std::vector<MemberRecord> finish(std::vector<MemberRecord> records,
+                                   const std::vector<std::size_t>& interrupted) const {
+    std::vector<MemberRecord> finished;
+    for (std::size_t i = 0; i < records.size(); ++i) {
+      if (std::ranges::binary_search(interrupted, i)) continue;
+      if (run_.is_twin(records[i].member) && !fly_twin(records[i])) continue;
+      finished.push_back(std::move(records[i]));
+    }
+    return finished;
+  }
+
+  /// @return false: it was interrupted
+  bool fly_twin(MemberRecord& record) const {
+    if (record.verdict == Verdict::kFailed) return true;
+    const Clock::time_point start = Clock::now();
+    MemberSpec spec = run_.compile(record.member, true);
+    if (!spec.bundle) return true;
+    const TwinFinding found = twin_finding(run_member(*spec.bundle, options_));
+    if (found.verdict == Verdict::kInterrupted) return false;
+    record.twin = record.verdict = found.verdict;
+    add_reason(record.reason, found.reason);
+    record.seconds += std::chrono::duration<double>(Clock::now() - start).count();
+    return true;
+  }
+
+  const CampaignRun& run_;
+  const RunOptions& options_;
+  std::vector<OutputColumn> columns_;
+};
+
+std::vector<OutputColumn> columns_of(const CampaignPlan& plan) {
+  std::vector<OutputColumn> columns;
+  for (const OutputPlan& output : plan.outputs) columns.push_back(column_of(output));
+  return columns;
+}
+
+RunOptions of_a_member(RunOptions options) {
+  options.trials = 0;
+  options.keep_samples = false;
+  options.progress = nullptr;
+  return options;
+}
+
+}  // namespace
+
+TwinFinding twin_finding(const Member& member) {
+  TwinFinding found{member.verdict(), {}};
+  for (const EngineRun& engine : member.engines) add_reason(found.reason, engine.reason);
+  if (found.verdict == Verdict::kUnresolved)
+    for (const std::string& reason : member.resolution->reasons) add_reason(found.reason, reason);
+  for (const JudgedFigure& figure : member.exceeded())
+    add_reason(found.reason, fmt::format("{} {:.3g} exceeds {:.3g}", figure.key, figure.maximum,
+                                         figure.tolerance));
+  return found;
+}
+
+void run_campaign(const CampaignRun& run, const RunOptions& options) {
+  const RunOptions of_member = of_a_member(options);
+  const Squad squad(run, of_member, columns_of(run.plan));
+  const std::size_t size = 2 * bsm::batch_lanes(options.instructions.set);
+  const std::span<const std::size_t> members(run.members);
+  const Clock::time_point start = Clock::now();
+  std::size_t done = 0;
+  OrderedWork<std::vector<MemberRecord>> plan;
+  plan.count = (members.size() + size - 1) / size;
+  plan.work = [&](std::size_t i) {
+    return squad.fly(members.subspan(i * size, std::min(size, members.size() - i * size)));
+  };
+  plan.deliver = [&](std::vector<MemberRecord> records) {
+    done += records.size();
+    for (MemberRecord& record : records) run.finished(std::move(record));
+    const std::chrono::duration<double> spent = Clock::now() - start;
+    options.show(fmt::format("members  {} of {}, {:.3g}/s", done, members.size(),
+                             static_cast<double>(done) / spent.count()),
+                 static_cast<double>(done) / static_cast<double>(members.size()));
+  };
+  plan.may_go_on = [&] { return !options.stopped() && !(run.enough && run.enough()); };
+  in_order(plan, run.jobs);
+}
+
+}  // namespace twincraft
