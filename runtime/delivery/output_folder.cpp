@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <limits>
 #include <optional>
 #include <string>
 #include <system_error>
@@ -34,7 +35,7 @@ std::optional<std::size_t> member_of(const std::string& name) {
   std::size_t member = 0;
   const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), member);
   if (error != std::errc() || end != name.data() + name.size()) return std::nullopt;
-  return member > 0 && name == fmt::format("{:04}", member) ? std::optional(member) : std::nullopt;
+  return name == fmt::format("{:04}", member) ? std::optional(member) : std::nullopt;
 }
 
 /// A link is the user's, wherever it leads.
@@ -47,6 +48,13 @@ bool is_plain_file(const fs::path& path) {
   std::error_code error;
   return fs::symlink_status(path, error).type() == fs::file_type::regular;
 }
+
+void remove_plain(const fs::path& path) {
+  std::error_code ignored;
+  if (is_plain_file(path)) fs::remove(path, ignored);
+}
+
+constexpr std::size_t kNoMember = std::numeric_limits<std::size_t>::max();
 
 std::vector<fs::path> members_in(const fs::path& folder) {
   std::vector<fs::path> members;
@@ -61,7 +69,8 @@ std::vector<fs::path> members_in(const fs::path& folder) {
 }  // namespace
 
 fs::path OutputFolder::of_member(std::size_t index) const {
-  return index == 0 ? folder_ : folder_ / fmt::format("{:04}", index);
+  const bool is_beside = index == 0 && first_ == First::kBeside;
+  return is_beside ? folder_ : folder_ / fmt::format("{:04}", index);
 }
 
 void OutputFolder::wrote(std::size_t member, std::string_view name) {
@@ -83,19 +92,21 @@ void OutputFolder::for_each_written(
 
 void OutputFolder::clean(const fs::path& folder, std::size_t member) const {
   for (std::size_t file = 0; file < trajectories().size(); ++file) {
-    const fs::path path = folder / trajectories().at(file);
-    std::error_code ignored;
-    if (!has_written(member, file) && is_plain_file(path)) fs::remove(path, ignored);
+    if (!has_written(member, file)) remove_plain(folder / trajectories().at(file));
   }
 }
 
 void OutputFolder::remove_leftovers() const {
-  clean(folder_, 0);
+  const bool is_campaign = first_ == First::kApart;
+  clean(folder_, is_campaign ? kNoMember : 0);
+  if (!is_campaign)
+    for (const char* table : {"campaign.csv", "campaign.nc"}) remove_plain(folder_ / table);
   for (const fs::path& folder : members_in(folder_)) {
     std::error_code ignored;
     if (fs::exists(folder / "report.json", ignored) || fs::exists(folder / "report.html", ignored))
       continue;
-    clean(folder, *member_of(folder.filename().string()));
+    const std::size_t member = *member_of(folder.filename().string());
+    clean(folder, of_member(member) == folder ? member : kNoMember);
     if (fs::is_empty(folder, ignored)) fs::remove(folder, ignored);
   }
 }

@@ -14,9 +14,13 @@ namespace twincraft {
 /// Files of a run in its folder, and that folder's members.
 class OutputFolder {
  public:
-  explicit OutputFolder(std::filesystem::path folder) : folder_(std::move(folder)) {}
+  /// Where the first member's files lie: beside the report, or in a folder as those of the others.
+  enum class First { kBeside, kApart };
+  explicit OutputFolder(std::filesystem::path folder, First first = First::kBeside)
+      : folder_(std::move(folder)), first_(first) {}
 
-  /// DIR, or DIR/0001 and so on: the first member's files lie beside the report.
+  const std::filesystem::path& path() const { return folder_; }
+  /// DIR/0001 and so on; of the first member DIR or DIR/0000.
   std::filesystem::path of_member(std::size_t index) const;
 
   /// This run wrote a file of ours for a member.
@@ -27,7 +31,8 @@ class OutputFolder {
       const std::function<void(std::size_t member, const std::string& name)>& visit) const;
 
   /// Removes files of our names that this run did not write: trajectories beside the report and in
-  /// folders of members, which go with their last file. Whatever else lies there stays, and so does
+  /// folders of members, which go with their last file; and the table of a campaign, where this was
+  /// none. Whatever else lies there stays, and so does
   /// a folder with a report of its own. What cannot be removed stays silently: results are written.
   void remove_leftovers() const;
 
@@ -36,6 +41,7 @@ class OutputFolder {
   void clean(const std::filesystem::path& folder, std::size_t member) const;
 
   std::filesystem::path folder_;
+  First first_;
   std::vector<std::uint8_t> written_;  // a bit per file of a member
 };
 

@@ -6,11 +6,13 @@
 #include <filesystem>
 
 #include "compiler/files/output.h"
+#include "runtime/delivery/campaign_files.h"
 #include "runtime/delivery/room.h"
 #include "runtime/delivery/spec_run.h"
 #include "runtime/report/netcdf.h"
 #include "runtime/report/study_table.h"
 #include "tools/programs/attribute.h"
+#include "tools/programs/campaign.h"
 #include "tools/programs/command.h"
 #include "tools/programs/compare.h"
 #include "tools/programs/interrupt.h"
@@ -18,20 +20,22 @@
 namespace twincraft {
 namespace {
 
-const std::string kAttribute = "attribute", kCompare = "compare";
+const std::string kAttribute = "attribute", kCompare = "compare", kMerge = "merge";
 
 struct Options : CommonOptions {
   bool netcdf = false;
-  std::string engine = "both";
+  std::string engine;  // empty: both
   int trials = RunOptions{}.trials;
   bool no_timing = false;
+  CampaignOptions campaign;
 };
 
 void describe_run(CommandLine& line, Options& options) {
   describe_input(line, options, "report.json, report.html and CSV files");
   line.add_switch("--netcdf", options.netcdf, "also write trajectories as netCDF-4, with -o");
   line.require("--netcdf", "--output");
-  line.add_text("--engine", options.engine, "ENGINE", "bsm, mujoco or both (default)",
+  line.add_text("--engine", options.engine, "ENGINE",
+                "bsm, mujoco or both (default; of a campaign: bsm, and both as its `twin` says)",
                 {one_of({std::string(kBsmKey), std::string(kMujocoKey), "both"})});
   line.add_number("--trials", options.trials, 0, 1'000'000,
                   "timed trials per engine (default 5; 0: no timing)");
@@ -43,12 +47,14 @@ void describe_run(CommandLine& line, Options& options) {
 
 void describe(CommandLine& line, Options& options) {
   describe_run(line, options);
+  describe_campaign(line, options.campaign);
   describe_talk(line, options);
   line.add_version("scsim " TWINCRAFT_VERSION);
   line.set_column(28);
   line.add_footer(
       "scsim attribute SPEC explains a disagreement; see scsim attribute --help.\n"
-      "scsim compare A B compares trajectories or folders; see scsim compare --help.\n\n"
+      "scsim compare A B compares trajectories or folders; see scsim compare --help.\n"
+      "scsim merge DIR joins the shards of a campaign; see scsim merge --help.\n\n"
       "Exit: 0 done, 1 faults in the spec or a tolerance exceeded, 2 usage, 3 input/output,\n"
       "4 numerical failure, 130/143 interrupted (what was computed is written).\n\n"
       "Example: scsim models/quickstart.yaml -o out --step '10 ms' --engine both");
@@ -118,11 +124,38 @@ int check_kept(const CompiledSpec& compiled, const RunRequest& request, const Op
   return printed != kExitDone ? printed : kExitFindings;
 }
 
+/// What of a campaign the two engines fly is the campaign's to say, unless a flag does.
+std::optional<CampaignRequest> campaign_of(const Options& options, const RunRequest& run) {
+  CampaignRequest request;
+  request.options = run.options;
+  request.jobs = run.jobs;
+  request.folder = run.folder;
+  request.netcdf = run.netcdf;
+  if (options.engine == "both") request.twins = CampaignRequest::Twins::kAll;
+  if (options.engine == kBsmKey) request.twins = CampaignRequest::Twins::kNone;
+  if (options.engine == kMujocoKey) return std::nullopt;
+  return request;
+}
+
+int campaign(const CompiledSpec& compiled, const Options& options, const RunRequest& run) {
+  const std::optional<CampaignRequest> request = campaign_of(options, run);
+  if (!request)
+    return report_usage("scsim", "`--engine mujoco`: members of a campaign fly in bsm",
+                        "`--engine both` lets all of them fly in both engines");
+  if (const int code = settle(try_files(campaign_paths(options.folder))); code != kExitDone)
+    return code;
+  return fly_campaign_command(compiled, options, options.campaign, *request);
+}
+
 int compile_and_simulate(const Options& options) {
   std::optional<CompiledSpec> compiled;
   RunRequest request = request_of(options);
   if (const int code = compile_spec(options, request.wanted(), compiled); code != kExitDone)
     return code;
+  if (compiled->spec.campaign() != nullptr) return campaign(*compiled, options, request);
+  if (const std::string flag = options.campaign.given(); !flag.empty())
+    return report_usage("scsim", fmt::format("`{}` is of a campaign, and this spec has none", flag),
+                        "leave it out, or see docs/campaigns.md");
   if (const int code = check_kept(*compiled, request, options); code != kExitDone) return code;
   if (const int code = settle(try_files(first_paths(options.folder))); code != kExitDone)
     return code;
@@ -132,7 +165,7 @@ int compile_and_simulate(const Options& options) {
 
 /// A word before all flags that is nearly a command and no file.
 bool is_misspelt_command(const std::string& word) {
-  return !word.starts_with('-') && !nearest(word, {kAttribute, kCompare}).empty() &&
+  return !word.starts_with('-') && !nearest(word, {kAttribute, kCompare, kMerge}).empty() &&
          !std::filesystem::exists(word);
 }
 
@@ -140,9 +173,11 @@ int parse_and_run(int argc, char** argv) {
   const std::string first = argc > 1 ? argv[1] : "";
   if (first == kAttribute) return attribute_command(argc - 1, argv + 1);
   if (first == kCompare) return compare_command(argc - 1, argv + 1);
+  if (first == kMerge) return merge_command(argc - 1, argv + 1);
   if (is_misspelt_command(first))
-    return report_usage("scsim", fmt::format("unknown command {}", in_backticks(first)),
-                        fmt::format("did you mean `{}`?", nearest(first, {kAttribute, kCompare})));
+    return report_usage(
+        "scsim", fmt::format("unknown command {}", in_backticks(first)),
+        fmt::format("did you mean `{}`?", nearest(first, {kAttribute, kCompare, kMerge})));
   CommandLine line{"Runs a spacecraft spec in both engines and says whether they agree.", "scsim"};
   Options options;
   describe(line, options);

@@ -1,0 +1,310 @@
+// See campaign_run.h.
+#include "runtime/delivery/campaign_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <utility>
+
+#include "compiler/files/output.h"
+#include "compiler/ir/digest.h"
+#include "runtime/campaign/run_campaign.h"
+#include "runtime/delivery/campaign_files.h"
+#include "runtime/delivery/campaign_kept.h"
+#include "runtime/delivery/spec_run.h"
+
+namespace twincraft {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The spec, but for the number of its members: a campaign may go on with more. Empty where no file
+/// is to tell it.
+std::string digest_of(const Bundle& bundle) {
+  if (bundle.resolved_json.empty()) return {};
+  nlohmann::ordered_json spec = nlohmann::ordered_json::parse(bundle.resolved_json);
+  spec["campaign"].erase("members");
+  return sha256(spec.dump());
+}
+
+RecordsHeader header_of(const CompiledSpec& compiled, const RunOptions& options) {
+  const CampaignPlan& plan = *compiled.spec.campaign();
+  RecordsHeader header{.name = compiled.bundle.model.name,
+                       .spec_sha256 = digest_of(compiled.bundle),
+                       .instructions = std::string(name_of(options.instructions.set)),
+                       .drawn = plan.drawn,
+                       .outputs = {}};
+  for (const OutputPlan& output : plan.outputs) header.outputs.push_back(column_of(output));
+  return header;
+}
+
+std::size_t twin_every(const CampaignPlan& plan, CampaignRequest::Twins twins) {
+  switch (twins) {
+    case CampaignRequest::Twins::kPlanned:
+      return plan.twin_every;
+    case CampaignRequest::Twins::kAll:
+      return 1;
+    case CampaignRequest::Twins::kNone:
+      break;
+  }
+  return 0;
+}
+
+/// The worse one comes first.
+Verdict worse(Verdict a, Verdict b) {
+  constexpr std::array kOrder{Verdict::kInterrupted, Verdict::kFailed,    Verdict::kUnresolved,
+                              Verdict::kDisagree,    Verdict::kNotJudged, Verdict::kAgree};
+  return std::min(a, b, [&](Verdict x, Verdict y) {
+    return std::ranges::find(kOrder, x) < std::ranges::find(kOrder, y);
+  });
+}
+
+std::vector<bool> independent(const CampaignPlan& plan) {
+  std::vector<bool> all;
+  for (const DrawnNumber& number : plan.drawn) all.push_back(number.is_independent);
+  return all;
+}
+
+std::vector<std::size_t> members_to_fly(const Shard& shard, const std::vector<bool>& done) {
+  std::vector<std::size_t> members;
+  for (std::size_t member = shard.index - 1; member < done.size(); member += shard.count)
+    if (!done[member]) members.push_back(member);
+  return members;
+}
+
+/// Where records go as they come.
+class RecordSink {
+ public:
+  virtual ~RecordSink() = default;
+  virtual void take(const MemberRecord& record) = 0;
+  virtual std::string error() const = 0;
+};
+
+class ToFile final : public RecordSink {
+ public:
+  ToFile(const fs::path& path, const CampaignShards::Found& found, const RecordsHeader& header,
+         std::size_t members)
+      : file_(path, found, header, members) {}
+  void take(const MemberRecord& record) override { file_.append(record); }
+  std::string error() const override { return file_.error(); }
+
+ private:
+  ShardFile file_;
+};
+
+class ToTable final : public RecordSink {
+ public:
+  explicit ToTable(CampaignTable& table) : table_(table) {}
+  void take(const MemberRecord& record) override { table_.add(record); }
+  std::string error() const override { return {}; }
+
+ private:
+  CampaignTable& table_;
+};
+
+/// A campaign on its way.
+class Campaign {
+ public:
+  Campaign(const CompiledSpec& compiled, const CampaignRequest& request)
+      : compiled_(compiled),
+        request_(request),
+        plan_(*compiled.spec.campaign()),
+        header_(header_of(compiled, request.options)) {}
+
+  CampaignResult fly() {
+    if (request_.folder.empty()) {
+      CampaignTable table(header_);
+      ToTable sink(table);
+      fly_members(members_to_fly({}, std::vector<bool>(plan_.members)), sink);
+      settle(std::move(table));
+    } else {
+      fly_into_folder();
+    }
+    return std::move(result_);
+  }
+
+  /// Of what the folder holds.
+  CampaignResult merge() {
+    std::optional<MergedCampaign> merged = CampaignShards(request_.folder).merge(result_.error);
+    if (merged) finish(*std::move(merged));
+    return std::move(result_);
+  }
+
+ private:
+  void fly_into_folder() {
+    const CampaignShards shards(request_.folder);
+    const Shard own = request_.shard.value_or(Shard{});
+    CampaignShards::Found found{.done = std::vector<bool>(plan_.members)};
+    if (request_.resume) found = shards.find(header_, own, plan_.members);
+    if (!(result_.error = found.error).empty()) return;
+    const std::vector<std::size_t> members = members_to_fly(own, found.done);
+    result_.resumed = std::ranges::count(found.done, true);
+    {
+      ToFile sink(shards.path_of(own), found, header_, plan_.members);
+      if (!(result_.error = sink.error()).empty()) return;
+      if (!request_.resume && !request_.shard) shards.remove_others(own);
+      result_.error = write_files({{shards.spec().string(), compiled_.bundle.text(kResolved)}});
+      if (!result_.error.empty()) return;
+      fly_members(members, sink);
+      if (!(result_.error = sink.error()).empty()) return;
+    }
+    if (request_.shard) return conclude_shard();
+    std::optional<MergedCampaign> merged = shards.merge(result_.error);
+    if (merged) finish(*std::move(merged));
+  }
+
+  void fly_members(std::vector<std::size_t> members, RecordSink& sink) {
+    bool enough = false;
+    CampaignRun run;
+    run.plan = plan_;
+    run.plan.twin_every = twin_every(plan_, request_.twins);
+    run.members = std::move(members);
+    run.jobs = request_.jobs;
+    run.drawn = [this](std::size_t member) { return compiled_.spec.drawn(member); };
+    run.compile = [this](std::size_t member, bool both) {
+      return compile(member, both ? wanted_by_run(false) : Wanted{});
+    };
+    run.finished = [&](const MemberRecord& record) {
+      sink.take(record);
+      note(record);
+      ++result_.flown;
+      enough = !sink.error().empty() ||
+               (request_.stops_on_failure && record.verdict == Verdict::kFailed);
+    };
+    run.enough = [&enough] { return enough; };
+    run_campaign(run, request_.options);
+  }
+
+  MemberSpec compile(std::size_t member, const Wanted& wanted) const {
+    return compile_member([&](Diagnostics& diagnostics) {
+      return compiled_.spec.campaign_member(member, wanted, diagnostics);
+    });
+  }
+
+  void settle(CampaignTable table) {
+    result_.error = table.settle(plan_.members);
+    if (!result_.error.empty() || table.rows() == 0) return conclude_shard();
+    std::vector<MemberRange> missing = table.missing(plan_.members);
+    finish({std::move(table), plan_.members, std::move(missing), {}});
+  }
+
+  /// What a record says of the campaign.
+  void note(const MemberRecord& record) {
+    result_.verdict = worse(result_.verdict, record.verdict);
+    result_.breaks_requirements = result_.breaks_requirements || breaks(record);
+  }
+  bool breaks(const MemberRecord& record) const {
+    return record.verdict != Verdict::kFailed &&
+           !broken_requirements(header_.outputs, record.outputs).empty();
+  }
+
+  void conclude_shard() {
+    result_.is_interrupted = request_.options.stopped();
+    if (result_.is_interrupted) result_.verdict = Verdict::kInterrupted;
+  }
+
+  /// From records to everything that is said of them.
+  void finish(MergedCampaign merged) {
+    result_.remarks = merged.remarks;
+    OutputFolder folder(request_.folder, OutputFolder::First::kApart);
+    const std::vector<std::size_t> kept = members_to_keep(plan_, merged.table);
+    if (request_.twins != CampaignRequest::Twins::kNone)
+      result_.error = keep_members(kept, keep_request(folder), merged.table);
+    if (!result_.error.empty()) return;
+    CampaignReport report = report_of(std::move(merged), kept);
+    judge(report);
+    if (!request_.folder.empty()) result_.error = write_campaign(report, folder);
+    result_.report = std::move(report);
+  }
+
+  KeepRequest keep_request(OutputFolder& folder) const {
+    KeepRequest keep;
+    keep.compile = [this](std::size_t member) {
+      return compile(member, wanted_by_run(!request_.folder.empty()));
+    };
+    keep.options = request_.options;
+    keep.jobs = request_.jobs;
+    keep.folder = request_.folder.empty() ? nullptr : &folder;
+    keep.netcdf = request_.netcdf;
+    keep.provenance = provenance_of(request_.options, request_.program);
+    return keep;
+  }
+
+  CampaignReport report_of(MergedCampaign merged, const std::vector<std::size_t>& kept) const {
+    const Bundle& nominal = compiled_.bundle;
+    CampaignFindings findings = find_all(merged, plan_, independent(plan_));
+    CampaignReport report{
+        .campaign = std::move(merged), .plan = plan_, .findings = std::move(findings)};
+    report.provenance = provenance_of(request_.options, request_.program);
+    report.description = nominal.model.description;
+    report.spec_file = nominal.spec_file;
+    report.spec_sha256 = nominal.spec_sha256;
+    report.degrees_of_freedom = nominal.model.degrees_of_freedom();
+    report.kept = kept;
+    report.settings = [spec = compiled_.spec, changes = nominal.settings](std::size_t member) {
+      std::vector<std::string> settings;
+      for (const Setting& change : changes)
+        settings.push_back(fmt::format("{}={}", change.path, change.text));
+      for (std::string& setting : spec.campaign_settings(member))
+        settings.push_back(std::move(setting));
+      return settings;
+    };
+    return report;
+  }
+
+  void judge(CampaignReport& report) {
+    const CampaignTable& table = report.campaign.table;
+    result_.is_interrupted = request_.options.stopped();
+    report.complete = report.campaign.missing.empty() && !result_.is_interrupted;
+    Verdict verdict = result_.is_interrupted ? Verdict::kInterrupted : Verdict::kAgree;
+    for (std::size_t row = 0; row < table.rows(); ++row)
+      verdict = worse(verdict, table.verdict(row));
+    for (const OutputFindings& output : report.findings.outputs) {
+      const PassRate& flown = output.summary.flown;
+      result_.breaks_requirements = result_.breaks_requirements || flown.passed < flown.of;
+    }
+    report.verdict = result_.verdict = verdict;
+  }
+
+  const CompiledSpec& compiled_;
+  const CampaignRequest& request_;
+  const CampaignPlan& plan_;
+  RecordsHeader header_;
+  CampaignResult result_;
+};
+
+}  // namespace
+
+int CampaignResult::exit_code() const {
+  if (!error.empty()) return kExitInputOutput;
+  if (is_interrupted) return kExitInterrupted;
+  if (verdict == Verdict::kFailed) return kExitFailure;
+  const bool finds = verdict == Verdict::kDisagree || verdict == Verdict::kUnresolved ||
+                     breaks_requirements || (report && !report->complete);
+  return finds ? kExitFindings : kExitDone;
+}
+
+CampaignResult fly_campaign(const CompiledSpec& compiled, const CampaignRequest& request) {
+  return Campaign(compiled, request).fly();
+}
+
+Compilation compile_shards(const std::string& folder, const Wanted& wanted,
+                           Diagnostics& diagnostics) {
+  const CampaignShards shards(folder);
+  const std::size_t members = shards.members();
+  if (members == 0)
+    return {.io_error = fmt::format("{} holds no results of a campaign", in_backticks(folder))};
+  CompileRequest request;
+  request.file = shards.spec().string();
+  request.overrides = {fmt::format("campaign.members={}", members)};
+  return compile_spec(request, wanted, diagnostics);
+}
+
+CampaignResult merge_campaign(const CompiledSpec& compiled, const CampaignRequest& request) {
+  return Campaign(compiled, request).merge();
+}
+
+}  // namespace twincraft
