@@ -13,6 +13,7 @@
 #include "runtime/delivery/member_files.h"
 #include "runtime/delivery/run_record.h"
 #include "runtime/delivery/scratch_folder.h"
+#include "runtime/delivery/study_outputs.h"
 #include "runtime/report/json.h"
 #include "runtime/report/study_table.h"
 #include "runtime/report/table.h"
@@ -103,8 +104,13 @@ struct SpecRun::Parts {
     if (record.files() != nullptr)
       files = std::make_unique<MemberFiles>(bundle, MemberFilesPlan{index, netcdf},
                                             record.report().provenance, record.output());
-    if (!keeps || index > 0) return files;
-    return std::make_unique<SampleKeeper>(trajectories, std::move(files));
+    std::unique_ptr<MemberOutput> output = std::move(files);
+    if (keeps && index == 0)
+      output = std::make_unique<SampleKeeper>(trajectories, std::move(output));
+    const std::optional<StudyPlan>& study = record.report().study;
+    if (study && !study->outputs.empty())
+      output = std::make_unique<StudyOutputs>(bundle.model, study->outputs, std::move(output));
+    return output;
   }
 
   const bool keeps, netcdf;
@@ -167,7 +173,8 @@ int SpecRun::exit_code() const {
   if (parts_->stopped) return kExitInterrupted;
   if (parts_->record.worst() != kExitDone || empty()) return parts_->record.worst();
   const Verdict found = verdict();
-  const bool finds = found == Verdict::kDisagree || found == Verdict::kUnresolved;
+  const bool breaks = report().record && report().record->breaks_requirements();
+  const bool finds = breaks || found == Verdict::kDisagree || found == Verdict::kUnresolved;
   return finds ? kExitFindings : kExitDone;
 }
 

@@ -297,5 +297,27 @@ TEST_F(ScsimStudy, MeasuresWorkAgainstPrecision) {
   EXPECT_THAT(result.out, HasSubstr("BSM is faster in"));
 }
 
+constexpr const char* kOutputs = R"(  outputs:
+    - {name: peak, of: omega_BN_B, reduce: max_norm, require: {below: 60 mrad/s}}
+    - {name: crossing, of: omega_BN_B.x, reduce: first_crossing, level: 35 mrad/s}
+)";
+
+TEST_F(ScsimStudy, ReducesEveryMemberToTheOutputsThatItAsksFor) {
+  const ProgramResult result =
+      run({folder.write("tumbler.yaml", kTumbler + kOutputs), "--no-timing"});
+  EXPECT_EQ(result.exit_code, 1);  // a faster start breaks the requirement
+  EXPECT_THAT(result.out, HasSubstr("BROKEN"));
+  const json found = report();
+  for (const json& member : found["members"]) {
+    const json& peak = member["outputs"]["peak"];
+    EXPECT_EQ(peak["unit"], "rad/s");
+    EXPECT_EQ(peak["below"], 0.06);
+    EXPECT_EQ(peak["pass"], peak["value"] < 0.06);
+    EXPECT_TRUE(member["outputs"]["crossing"].contains("value"));
+    EXPECT_FALSE(member["outputs"]["crossing"].contains("pass"));
+  }
+  EXPECT_EQ(found["verdict"], "not_judged");  // that is of agreement
+}
+
 }  // namespace
 }  // namespace twincraft
