@@ -21,19 +21,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The spec, but for the number of its members: a campaign may go on with more. Empty where no file
-/// is to tell it.
-std::string digest_of(const Bundle& bundle) {
+/// The spec, but for the number of its members: a campaign may go on with more, unless others would
+/// then be drawn. Empty where no file is to tell it.
+std::string digest_of(const Bundle& bundle, Sampling sampling) {
   if (bundle.resolved_json.empty()) return {};
   nlohmann::ordered_json spec = nlohmann::ordered_json::parse(bundle.resolved_json);
-  spec["campaign"].erase("members");
+  if (sampling != Sampling::kLatinHypercube) spec["campaign"].erase("members");
   return sha256(spec.dump());
 }
 
 RecordsHeader header_of(const CompiledSpec& compiled, const RunOptions& options) {
   const CampaignPlan& plan = *compiled.spec.campaign();
   RecordsHeader header{.name = compiled.bundle.model.name,
-                       .spec_sha256 = digest_of(compiled.bundle),
+                       .spec_sha256 = digest_of(compiled.bundle, plan.sampling),
                        .instructions = std::string(name_of(options.instructions.set)),
                        .drawn = plan.drawn,
                        .outputs = {}};
