@@ -15,13 +15,21 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kSuffix = ".records";
+constexpr std::string_view kOf = "-of-", kSuffix = ".records";
 
 std::optional<std::size_t> number_of(std::string_view text) {
   std::size_t number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   const bool is_number = error == std::errc() && end == text.data() + text.size();
   return is_number ? std::optional(number) : std::nullopt;
+}
+
+/// Whether it is a name as Shard::file_name() gives. Whatever else lies there is the user's.
+bool is_of_a_shard(std::string_view name) {
+  const std::size_t of = name.find(kOf);
+  if (of == std::string_view::npos || !name.ends_with(kSuffix)) return false;
+  name.remove_suffix(kSuffix.size());
+  return number_of(name.substr(0, of)) && number_of(name.substr(of + kOf.size()));
 }
 
 /// Marks the members of one file.
@@ -32,7 +40,7 @@ void mark(RecordReader& reader, CampaignShards::Found& found) {
 
 }  // namespace
 
-std::string Shard::file_name() const { return fmt::format("{}-of-{}{}", index, count, kSuffix); }
+std::string Shard::file_name() const { return fmt::format("{}{}{}{}", index, kOf, count, kSuffix); }
 
 std::optional<Shard> parse_shard(std::string_view text, std::string& why) {
   const std::size_t slash = text.find('/');
@@ -57,7 +65,7 @@ std::vector<fs::path> CampaignShards::files() const {
   std::error_code error;
   for (fs::directory_iterator entry(folder_, error), end; !error && entry != end;
        entry.increment(error))
-    if (entry->path().extension() == kSuffix && entry->is_regular_file(error))
+    if (is_of_a_shard(entry->path().filename().string()) && entry->is_regular_file(error))
       files.push_back(entry->path());
   std::ranges::sort(files);
   return files;
