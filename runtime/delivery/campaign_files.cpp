@@ -67,8 +67,9 @@ std::string write_campaign(const CampaignReport& report, const OutputFolder& fol
 std::vector<std::string> campaign_paths(const std::string& folder) {
   if (folder.empty()) return {};
   std::vector<std::string> paths;
-  for (const char* name : {"campaign.csv", "campaign.nc", "report.json", "report.html"})
+  for (const char* name : {"campaign.csv", "report.json", "report.html"})
     paths.push_back((fs::path(folder) / name).string());
+  if (has_netcdf()) paths.push_back((fs::path(folder) / "campaign.nc").string());
   return paths;
 }
 
