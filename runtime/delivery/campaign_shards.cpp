@@ -50,7 +50,7 @@ std::optional<Shard> parse_shard(std::string_view text, std::string& why) {
     count = number_of(text.substr(slash + 1));
   }
   if (!index || !count)
-    why = fmt::format("{} is no I/N, such as 2/8", in_backticks(std::string(text)));
+    why = fmt::format("{} is no I/N, such as 2/8", in_backticks(text));
   else if (*count < 1 || *count > kMostShards)
     why = fmt::format("there are 1 to {} shards, not {}", kMostShards, *count);
   else if (*index < 1 || *index > *count)
