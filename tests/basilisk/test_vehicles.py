@@ -13,6 +13,7 @@ from conftest import RANDOM
 # Long runs are cut, and steps by a rule are set to whole nanoseconds, as they are in Basilisk. Of
 # everything.yaml the first step of 1 s would overflow, which ends a flight in MJScene.
 ENDS = {  # [s]
+    "models/gallery/dispersed_burn.yaml": 20, "models/gallery/dispersed_telescope.yaml": 2,
     "models/quickstart.yaml": 60, "models/gallery/branched_arm.yaml": 5, "models/gallery/jet_damping.yaml": 10,
     "models/nesc/case_10a.yaml": 2000, "models/nesc/case_8a.yaml": 2000, "models/nesc/case_9a.yaml": 2000,
     "models/nesc/case_9b.yaml": 2000, "models/paper/orbit_compact.yaml": 200, "models/paper/orbit_extended.yaml": 200,

@@ -38,7 +38,7 @@ class Campaign:
     """A spec in a folder of its own, in which jobs run; `out` there is theirs."""
 
     folder: Path
-    members: int = 60  # some seconds of work: long enough for a kill to hit it
+    members: int = 240  # some seconds of work: long enough for a kill to hit it
 
     @property
     def spec(self) -> Path:

@@ -35,9 +35,8 @@ def exit_codes(slurm: Slurm, job: str) -> dict[int, int]:
 def out_of_time(slurm: Slurm, tmp_path_factory: pytest.TempPathFactory) -> tuple[Campaign, str]:
     """A campaign without end and its job, which Slurm signals within 30 s: so often it looks at limits."""
     campaign = Campaign(tmp_path_factory.mktemp("limit"), members=1_000_000).write()
-    flags = (campaign.spec, campaign.out, "1", "--jobs", "1")
-    job = slurm.submit(SCRIPT, *flags, array="1", signal="B:USR1@60",
-                       options=("--time=1", "--cpus-per-task=1"), cwd=campaign.folder)
+    options = ("--time=1", "--cpus-per-task=1")
+    job = submit(slurm, campaign, "1", 1, signal="B:USR1@60", options=options)
     return campaign, job
 
 
