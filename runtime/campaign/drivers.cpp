@@ -68,7 +68,7 @@ double Driver::strength() const {
   return std::max(monotonic, sobol_first ? sobol_first->value : 0.0);
 }
 
-OutputDrivers drivers_of(const CampaignTable& table, std::size_t output,
+OutputDrivers drivers_of(const CampaignTable& table, std::size_t output, Sampling sampling,
                          const std::vector<bool>& independent) {
   const std::vector<std::size_t> rows = flown_rows(table);
   const std::vector<double> values = taken(table.output(output), rows);
@@ -78,7 +78,9 @@ OutputDrivers drivers_of(const CampaignTable& table, std::size_t output,
     drawn.push_back(taken(table.drawn(i), rows));
     found.drivers.push_back({i, statistics::spearman(drawn.back(), values), {}});
   }
-  found.no_sobol = obstacle(table.rows(), values, independent);
+  found.no_sobol = sampling == Sampling::kSobol
+                       ? "points of a Sobol' sequence have patterns that look like dependence"
+                       : obstacle(table.rows(), values, independent);
   if (found.no_sobol.empty()) add_indices(drawn, values, found.drivers, independent);
   std::ranges::stable_sort(found.drivers, std::greater<>(), &Driver::strength);
   return found;

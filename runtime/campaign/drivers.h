@@ -31,9 +31,11 @@ struct OutputDrivers {
 
 /// Of the members that were flown. Sobol' indices are those of independent numbers alone, and of
 /// outputs that every member of the table has: with holes they would be those of another set.
+/// Points of a Sobol' sequence are evenly spread but not independent of one another: what one
+/// number does can look like the doing of another, so of these there are none either.
 /// @param independent  one per drawn number: it moves with no other, as correlated numbers, the
 ///                     components of a drawn direction and numbers drawn together do
-OutputDrivers drivers_of(const CampaignTable& table, std::size_t output,
+OutputDrivers drivers_of(const CampaignTable& table, std::size_t output, Sampling sampling,
                          const std::vector<bool>& independent);
 
 }  // namespace twincraft

@@ -49,7 +49,7 @@ CampaignFindings find_all(const MergedCampaign& campaign, const CampaignPlan& pl
     const OutputColumn& output = table.header().outputs[i];
     OutputFindings& one = found.outputs.emplace_back();
     one.summary = summarise_output(table, i, campaign.members);
-    one.drivers = drivers_of(table, i, independent);
+    one.drivers = drivers_of(table, i, plan.sampling, independent);
     if (output.is_required() || output.name == plan.keep_by)
       one.worst = worst_members(table, i, kWorstShown);
   }
