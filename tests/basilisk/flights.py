@@ -90,10 +90,12 @@ def fly_theirs(spec: Path, folder: Path, *settings: str) -> Emitted:
 
 
 def fly_ours(spec: Path, folder: Path, emitted: Emitted, *settings: str) -> None:
-    """With what Basilisk has otherwise than the spec."""
+    """With what Basilisk has otherwise than the spec: of a campaign the vehicle that it draws around."""
     as_theirs = ["engines.bsm.attitude=mrp", "engines.mujoco.frame=inertial", "simulation.resolution=report"]
     if any("`system_com`" in each["message"] for each in emitted.about("bsm", "SC4005")):
         as_theirs.append("engines.bsm.gravity=system_com")
+    if re.search("^campaign:", spec.read_text(), re.MULTILINE):
+        as_theirs.append("campaign=null")
     run(PROGRAMS / "scsim", spec, "--no-timing", "--quiet", "-o", folder, *sets((*settings, *as_theirs)), codes=(0, 1))
 
 

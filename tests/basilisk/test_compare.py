@@ -91,6 +91,7 @@ def test_another_motion_disagrees():
 @pytest.mark.parametrize(
     ("arguments", "code", "says"),
     [(["no_such.yaml"], 3, "no such file"), (["models/paper/studies/flex_segments.yaml"], 1, "is a study"),
+     (["models/gallery/dispersed_burn.yaml"], 1, "is a campaign"),
      ([], 2, "usage"), (["models/quickstart.yaml", "--set", "hub.mas=1 kg"], 1, "hub.mas")])
 def test_faults_have_the_codes_of_scsim(arguments, code, says):
     done = compare(*arguments)

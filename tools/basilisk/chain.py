@@ -61,6 +61,9 @@ def sccompile(spec: str, settings: list[str], folder: pathlib.Path) -> tuple[pat
     (resolved,) = folder.glob("*.resolved.yaml")
     if re.search("^study:", resolved.read_text(), re.MULTILINE):
         raise Failed(f"`{spec}` is a study, which is many runs; name a spec without", 1)
+    if re.search("^campaign:", resolved.read_text(), re.MULTILINE):
+        nominal = "`--set campaign=null` flies the vehicle that it draws around"
+        raise Failed(f"`{spec}` is a campaign, which is many runs; {nominal}", 1)
     return script, remarks_of(done.stdout)
 
 
