@@ -1,7 +1,6 @@
 // See engine.h: the state vector around the kernel. Tested by tests/runtime/bsm_test.cpp.
 #include "runtime/bsm/engine.h"
 
-#include <algorithm>
 #include <limits>
 
 #include "runtime/bsm/books.h"

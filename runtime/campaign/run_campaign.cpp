@@ -183,6 +183,7 @@ void run_campaign(const CampaignRun& run, const RunOptions& options) {
   const Squad squad(run, of_member, columns_of(run.plan));
   const std::size_t size = 2 * bsm::batch_lanes(options.instructions.set);
   const std::span<const std::size_t> members(run.members);
+  options.show("members", 0.0);
   const Clock::time_point start = Clock::now();
   std::size_t done = 0;
   OrderedWork<std::vector<MemberRecord>> plan;

@@ -46,7 +46,7 @@ std::string put_netcdf(const CampaignReport& report, const PendingFile& file) {
 }  // namespace
 
 std::string write_campaign(const CampaignReport& report, const OutputFolder& folder) {
-  const fs::path path = folder.path();
+  const fs::path& path = folder.path();
   std::vector<PendingFile> files;
   put_csv(report.campaign.table, files.emplace_back(path / "campaign.csv"));
   if (has_netcdf())

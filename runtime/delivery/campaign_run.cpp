@@ -4,9 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
+#include <array>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <utility>
 
 #include "compiler/files/output.h"
@@ -134,22 +133,27 @@ class Campaign {
   }
 
  private:
+  bool failed() const { return !result_.error.empty(); }
+
   void fly_into_folder() {
     const CampaignShards shards(request_.folder);
     const Shard own = request_.shard.value_or(Shard{});
     CampaignShards::Found found{.done = std::vector<bool>(plan_.members)};
     if (request_.resume) found = shards.find(header_, own, plan_.members);
-    if (!(result_.error = found.error).empty()) return;
+    result_.error = found.error;
+    if (failed()) return;
     const std::vector<std::size_t> members = members_to_fly(own, found.done);
     result_.resumed = std::ranges::count(found.done, true);
     {
       ToFile sink(shards.path_of(own), found, header_, plan_.members);
-      if (!(result_.error = sink.error()).empty()) return;
+      result_.error = sink.error();
+      if (failed()) return;
       if (!request_.resume && !request_.shard) shards.remove_others(own);
       result_.error = write_files({{shards.spec().string(), compiled_.bundle.text(kResolved)}});
-      if (!result_.error.empty()) return;
+      if (failed()) return;
       fly_members(members, sink);
-      if (!(result_.error = sink.error()).empty()) return;
+      result_.error = sink.error();
+      if (failed()) return;
     }
     if (request_.shard) return conclude_shard();
     std::optional<MergedCampaign> merged = shards.merge(result_.error);
@@ -186,7 +190,7 @@ class Campaign {
 
   void settle(CampaignTable table) {
     result_.error = table.settle(plan_.members);
-    if (!result_.error.empty() || table.rows() == 0) return conclude_shard();
+    if (failed() || table.rows() == 0) return conclude_shard();
     std::vector<MemberRange> missing = table.missing(plan_.members);
     finish({std::move(table), plan_.members, std::move(missing), {}});
   }
@@ -213,7 +217,7 @@ class Campaign {
     const std::vector<std::size_t> kept = members_to_keep(plan_, merged.table);
     if (request_.twins != CampaignRequest::Twins::kNone)
       result_.error = keep_members(kept, keep_request(folder), merged.table);
-    if (!result_.error.empty()) return;
+    if (failed()) return;
     CampaignReport report = report_of(std::move(merged), kept);
     judge(report);
     if (!request_.folder.empty()) result_.error = write_campaign(report, folder);

@@ -8,7 +8,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "runtime/bsm/kernel.h"
 #include "runtime/delivery/file_parts.h"
 #include "runtime/delivery/member_files.h"
 #include "runtime/delivery/run_record.h"

@@ -77,7 +77,7 @@ class FileInMemory {
 
   static mjVFS& files() {
     static const std::unique_ptr<mjVFS> vfs = [] {
-      std::unique_ptr<mjVFS> empty(new mjVFS);
+      auto empty = std::make_unique_for_overwrite<mjVFS>();
       mj_defaultVFS(empty.get());
       return empty;
     }();

@@ -2,9 +2,7 @@
 #include "tools/programs/campaign.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include "compiler/files/output.h"
 #include "runtime/delivery/campaign_files.h"
 #include "runtime/report/campaign_table.h"
 #include "tools/programs/interrupt.h"
