@@ -17,6 +17,9 @@ const visible = new Set(["SC2001", "SC2002", "SC2003", "SC2005", "SC2009", "SC20
 
 // What the schema leaves to the compiler, and why.
 const forgiven = {
+  campaign_keep_by_nothing: "`by` is needed because of `worst`",
+  campaign_output_form: "`within` is needed because of `reduce`",
+  campaign_output_signal: "a stop needs a bound on either side",
   study_path_unknown: "a path is text to a schema",
   thruster_without_isp: "`isp` is needed because of `tank`",
 };
