@@ -28,13 +28,10 @@ void add_reason(std::string& reason, const std::string& further) {
 /// A member on its way to its record.
 class Flyer {
  public:
-  Flyer(std::size_t member, const CampaignPlan& plan, Bundle bundle)
-      : member_(member),
-        bundle_(std::move(bundle)),
+  Flyer(const CampaignPlan& plan, Bundle bundle)
+      : bundle_(std::move(bundle)),
         outputs_(bundle_.model, plan.outputs),
         watch_(bundle_.model, plan.stops) {}
-
-  std::size_t member() const { return member_; }
 
   FleetMember in_fleet() {
     return {&bundle_, [this](const Observation& sample) {
@@ -56,7 +53,6 @@ class Flyer {
   }
 
  private:
-  std::size_t member_;
   Bundle bundle_;
   OutputReducer outputs_;
   StopWatch watch_;
@@ -96,7 +92,7 @@ class Squad {
 
   std::unique_ptr<Flyer> begin(std::size_t member, MemberRecord& record) const {
     MemberSpec spec = run_.compile(member, false);
-    if (spec.bundle) return std::make_unique<Flyer>(member, run_.plan, std::move(*spec.bundle));
+    if (spec.bundle) return std::make_unique<Flyer>(run_.plan, std::move(*spec.bundle));
     record.verdict = Verdict::kFailed;
     record.reason = spec.refusal;
     return nullptr;
@@ -138,7 +134,10 @@ class Squad {
     if (record.verdict == Verdict::kFailed) return true;
     const Clock::time_point start = Clock::now();
     MemberSpec spec = run_.compile(record.member, true);
-    if (!spec.bundle) return true;
+    if (!spec.bundle) {
+      add_reason(record.reason, "not flown by both engines: " + spec.refusal);
+      return true;
+    }
     const TwinFinding found = twin_finding(run_member(*spec.bundle, options_));
     if (found.verdict == Verdict::kInterrupted) return false;
     record.twin = record.verdict = found.verdict;

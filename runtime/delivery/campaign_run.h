@@ -17,7 +17,7 @@
 namespace twincraft {
 
 struct CampaignRequest {
-  RunOptions options;  // its engines say who flies: see Twins
+  RunOptions options;  // but for its engines: see Twins
   int jobs = 1;
   std::string folder;          // empty: nothing is written
   std::optional<Shard> shard;  // nothing: all members, and the merge
