@@ -30,16 +30,27 @@ template <int kTerms>
 class RungeKutta::Terms {
  public:
   Terms(const WeightedSum& sum, double h, const double* stages) {
+#pragma GCC unroll 16
     for (std::size_t term = 0; term < kTerms; ++term) {
       weight_[term] = h * sum.coefficient[term];
       k_[term] = stages + sum.offset[term];
     }
   }
   Lanes at(Eigen::Index i) const {
+    constexpr std::size_t kLast = kTerms - 1;
+    const Lanes last = weight_[kLast] * one_by_one(k_[kLast] + i);
+    if constexpr (kLast == 0) return last;
     Lanes total = weight_[0] * ConstLaneMap(k_[0] + i);
-    for (std::size_t term = 1; term < kTerms; ++term)
+#pragma GCC unroll 16
+    for (std::size_t term = 1; term < kLast; ++term)
       total += weight_[term] * ConstLaneMap(k_[term] + i);
-    return total;
+    return total + last;
+  }
+  /// The last stage has just been written, number by number: a wider load would have to wait until
+  /// they have left the store buffer.
+  static Lanes one_by_one(const volatile double* k) {
+    const double k0 = k[0], k1 = k[1], k2 = k[2], k3 = k[3];
+    return {k0, k1, k2, k3};
   }
 
  private:
