@@ -34,7 +34,10 @@ class Vehicle {
     set_hub_matrices();
     limbs_.build(plans, layout_);
     is_rigid_ = plan_.limbs.empty() && !plan_.tree.links.data()->drains;
-    if (is_rigid_) factors_ = HubFactors(hub_);
+    if (is_rigid_) {
+      factors_ = HubFactors(hub_);
+      inverse_inertia_ = factors_.schur.inverse();
+    }
     for (const LimbPlan& limb : plan_.limbs) has_elements_ = has_elements_ || pulls_on(limb);
     has_elements_ = has_elements_ || !elements_.empty();
     push_.build(plans, limbs_);
@@ -74,6 +77,7 @@ class Vehicle {
   }
 
   void derivative(Number<H> time, const Number<H>* state, Number<H>* rate) {
+    if (turns_alone_) return turn_alone(state, rate);
     if (tanks_.flow()) return derivative_draining(time, state, rate);
     derivative_steady(time, state, rate);
   }
@@ -167,10 +171,6 @@ class Vehicle {
   void derivative_in(Number<H> time, const Number<H>* state, Number<H>* rate) {
     const Chart chart(state, Layout::kAttitude);
     const Vec<H> omega = vector(state, layout_.omega);
-    if (turns_alone_) {
-      turn_alone(chart, omega, state, rate);
-      return;
-    }
     const Mat<H> dcm_NB = chart.dcm_NB();
     const Vec<S> omega_S = spread(omega);
     limbs_.for_each([&](auto& group) { group.limb.move(state, omega_S); });
@@ -203,16 +203,25 @@ class Vehicle {
   }
 
   /// A rigid hub whose origin is its centre of mass, that no force acts on: rotation knows nothing
-  /// of translation, nor the other way.
+  /// of translation, nor the other way. Apart from derivative_in(), whose frame it does not need.
+  [[gnu::noinline]] void turn_alone(const Number<H>* state, Number<H>* rate) {
+    if (plan_.chart == AttitudeChart::kMrp) {
+      turn_alone_in<Mrp<H>>(state, rate);
+    } else {
+      turn_alone_in<Quaternion<H>>(state, rate);
+    }
+  }
+
   template <class Chart>
-  void turn_alone(const Chart& chart, const Vec<H>& omega, const Number<H>* state,
-                  Number<H>* rate) {
+  void turn_alone_in(const Number<H>* state, Number<H>* rate) {
+    const Vec<H> omega = vector(state, layout_.omega);
     const Vec<H> spin = rotor_momentum(state, omega);
     hub_.n0 = cross(omega, mass_.J * omega + spin) + (motor_torque_ - held_.torque);
     hub_.f0 = {};
     Vec<H> g_N;
     if (plan_.law != GravityLaw::kNone) g_N = Field<H>(mu_, vector(state, 0), false).at_hub();
-    put_hub_rates(chart, state, g_N, -factors_.schur.solve(hub_.n0), rate);
+    const Chart chart(state, Layout::kAttitude);
+    put_hub_rates(chart, state, g_N, -(inverse_inertia_ * hub_.n0), rate);
   }
 
   template <class Chart>
@@ -361,6 +370,7 @@ class Vehicle {
   bool turns_alone_ = false;   // see turn_alone()
   bool has_elements_ = false;  // that feel another field than B does
   HubFactors factors_;
+  Sym<H> inverse_inertia_;  // of a rigid hub, about its centre of mass
   Law<H> hub_alone_, hub_;
   Push<H, S> push_;  // of forces that follow the motion of links
   Pull<H> pushed_;   // of them, on the hub

@@ -161,6 +161,14 @@ class Ldl {
     return {b.x * inverse_d0_ - l10_ * x1 - l20_ * x2, x1, x2};
   }
 
+  /// Where the same matrix is solved for often: a product does not wait for itself as solve() does.
+  Sym<S> inverse() const {
+    const S one(1.0), zero(0.0);
+    const Vec<S> x = solve({one, zero, zero}), y = solve({zero, one, zero}),
+                 z = solve({zero, zero, one});
+    return {x.x, y.y, z.z, x.y, x.z, y.z};
+  }
+
  private:
   S inverse_d0_{}, inverse_d1_{}, inverse_d2_{}, l10_{}, l20_{}, l21_{};
 };
