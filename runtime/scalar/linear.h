@@ -142,15 +142,20 @@ template <KernelScalar S>
 class Ldl {
  public:
   Ldl() = default;
+  /// By minors, so that the three quotients do not wait for one another. Each difference is one of
+  /// the usual elimination's, scaled, and rounds no worse.
   explicit Ldl(const Sym<S>& m) {
     const S one(1.0);
+    const S minor = m.xx * m.yy - m.xy * m.xy;
+    const S e21 = m.xx * m.yz - m.xy * m.xz;
+    const S e22 = m.xx * m.zz - m.xz * m.xz;
+    const S inverse_minor = one / minor;
     inverse_d0_ = one / m.xx;
+    inverse_d1_ = m.xx * inverse_minor;
+    inverse_d2_ = (m.xx * minor) / (minor * e22 - e21 * e21);
     l10_ = m.xy * inverse_d0_;
     l20_ = m.xz * inverse_d0_;
-    inverse_d1_ = one / (m.yy - l10_ * m.xy);
-    const S e21 = m.yz - l20_ * m.xy;
-    l21_ = e21 * inverse_d1_;
-    inverse_d2_ = one / (m.zz - l20_ * m.xz - l21_ * e21);
+    l21_ = e21 * inverse_minor;
   }
 
   Vec<S> solve(const Vec<S>& b) const {
@@ -158,7 +163,7 @@ class Ldl {
     const S y2 = b.z - l20_ * b.x - l21_ * y1;
     const S x2 = y2 * inverse_d2_;
     const S x1 = y1 * inverse_d1_ - l21_ * x2;
-    return {b.x * inverse_d0_ - l10_ * x1 - l20_ * x2, x1, x2};
+    return {b.x * inverse_d0_ - l20_ * x2 - l10_ * x1, x1, x2};
   }
 
   /// Where the same matrix is solved for often: a product does not wait for itself as solve() does.
