@@ -100,6 +100,8 @@ class Chain {
     recoveries_.resize(first.links.size());
     pulls_.resize(first.links.size());
     for (std::size_t l = 0; l < lanes.size(); ++l) set(l, *lanes[l], layout);
+    dcm_WC_ = dcm_PC_;  // for good where the mount is the hub, whose axes are the working axes
+    r_HP_ = r_HP_P_;
   }
 
   int mount() const { return mount_; }  // in the limb; -1: the hub
@@ -113,10 +115,7 @@ class Chain {
 
   /// @param mount  how the mount moves: where it is matters for gravity and the centre of mass
   void move(const Number<H>* state, const MountMotion<S>& mount) {
-    if (mount_ < 0) {  // the hub's axes are the working axes
-      dcm_WC_ = dcm_PC_;
-      r_HP_ = r_HP_P_;
-    } else {
+    if (mount_ >= 0) {
       dcm_WC_ = mount.dcm_WL * dcm_PC_;
       r_HP_ = mount.dcm_WL * r_HP_P_;
     }
@@ -156,12 +155,12 @@ class Chain {
     return {mass_, mass_ * r_HB_ + in_axes(sum)};
   }
 
-  /// Add the chain's law, about the origin of its mount, to the mount's.
-  void contribute(const Field<S>* field, Law<S>& mount) {
+  /// The chain's law about the origin of its mount.
+  Law<S> law(const Field<S>* field) {
     Law<S> law = law_about_root(field);
     law.n0 += law.H * a_bias_;
     law.f0 += law.M * a_bias_;
-    mount.add_moved(law, r_HP_);
+    return law.moved(r_HP_);
   }
 
   /// Joint accelerations from the mount's.

@@ -34,22 +34,48 @@ struct Law {
   Mat<S> H;       // [kg m]
   Vec<S> n0, f0;  // [N m], [N]
 
-  /// Add a child's law, moved to the parent's origin, d away: a' = a_P + omegaDot_P x d and
-  /// n_P = n + d x f give H_P = H + d~ M and J_P = J + Z + Z^T with Z^T = (H + d~ M / 2) d~^T.
+  /// The same about the parent's origin, d away.
+  Law moved(const Vec<S>& d) const {
+    const Arm arm = arm_of(d);
+    Law law{J, M, {H.x + arm.K.x, H.y + arm.K.y, H.z + arm.K.z}, n0 + arm.n, f0};
+    law.J.add_twice_symmetric(arm.Z_T);
+    return law;
+  }
+
+  /// Add a child's law, moved to the parent's origin, d away.
   void add_moved(const Law& child, const Vec<S>& d) {
-    const Mat<S> K{cross(d, child.M.column_x()), cross(d, child.M.column_y()),
-                   cross(d, child.M.column_z())};
-    Mat<S> G = K;
-    G.x = child.H.x + S(0.5) * K.x;
-    G.y = child.H.y + S(0.5) * K.y;
-    G.z = child.H.z + S(0.5) * K.z;
+    const Arm arm = child.arm_of(d);
     J += child.J;
-    J.add_twice_symmetric({cross(d, G.row_x()), cross(d, G.row_y()), cross(d, G.row_z())});
+    J.add_twice_symmetric(arm.Z_T);
     H += child.H;
-    H += K;
+    H += arm.K;
     M += child.M;
-    n0 += child.n0 + cross(d, child.f0);
+    n0 += child.n0 + arm.n;
     f0 += child.f0;
+  }
+  Law& operator+=(const Law& o) {
+    J += o.J;
+    H += o.H;
+    M += o.M;
+    n0 += o.n0;
+    f0 += o.f0;
+    return *this;
+  }
+
+ private:
+  /// What moving by d adds: a' = a_P + omegaDot_P x d and n_P = n + d x f give H_P = H + K with
+  /// K = d~ M, and J_P = J + Z + Z^T with Z^T = (H + K / 2) d~^T.
+  struct Arm {
+    Mat<S> K, Z_T;
+    Vec<S> n;
+  };
+  Arm arm_of(const Vec<S>& d) const {
+    const Mat<S> K{cross(d, M.column_x()), cross(d, M.column_y()), cross(d, M.column_z())};
+    Mat<S> G = K;
+    G.x = H.x + S(0.5) * K.x;
+    G.y = H.y + S(0.5) * K.y;
+    G.z = H.z + S(0.5) * K.z;
+    return {K, {cross(d, G.row_x()), cross(d, G.row_y()), cross(d, G.row_z())}, cross(d, f0)};
   }
 };
 

@@ -1,4 +1,5 @@
-// A limb: what hangs on the hub by one joint, or like limbs side by side in the lanes of S.
+// A limb: what hangs on the hub by one joint, or like limbs side by side in the lanes of S. Here of
+// any form; limbs of one form that is frequent are written out in point.h and chain_limb.h.
 // See law.h for the equations. Tested by tests/runtime/bsm_test.cpp.
 #pragma once
 
@@ -100,9 +101,7 @@ class Limb {
   Law<S> contribute(const Field<S>* field, const Vec<S>* r_CB) {
     for (std::size_t i = 0; i < links_.size(); ++i) begin_law(i, field, r_CB);
     Law<S> hub;
-    for (Chain<H, S>& chain : chains_) {
-      chain.contribute(field, chain.mount() < 0 ? hub : laws_[index(chain.mount())]);
-    }
+    for (Chain<H, S>& chain : chains_) laws_[index(chain.mount())] += chain.law(field);
     for (std::size_t i = links_.size(); i-- > 0;) {
       eliminate(i);
       const int parent = links_[i].parent;
@@ -132,9 +131,8 @@ class Limb {
       }
     }
     for (const Chain<H, S>& chain : chains_) {
-      const bool on_hub = chain.mount() < 0;
-      chain.recover(on_hub ? omega_dot_B : motions_[index(chain.mount())].omega_dot,
-                    on_hub ? a_B : motions_[index(chain.mount())].a, rate);
+      const Motion& mount = motions_[index(chain.mount())];
+      chain.recover(mount.omega_dot, mount.a, rate);
     }
   }
 
@@ -438,8 +436,7 @@ class Limb {
   std::vector<Law<S>> laws_;
   std::vector<Recovery> recoveries_;
   std::vector<Chain<H, S>> chains_;
-  MountMotion<S> hub_{
-      {{S(1.0), S(0.0), S(0.0)}, {S(0.0), S(1.0), S(0.0)}, {S(0.0), S(0.0), S(1.0)}}, {}, {}, {}};
+  MountMotion<S> hub_ = hub_itself<S>();
   bool is_watched_ = false;
 };
 

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "runtime/bsm/chain_limb.h"
 #include "runtime/bsm/limb.h"
 #include "runtime/bsm/point.h"
 
@@ -44,11 +45,13 @@ class Limbs {
   template <class Each>
   void for_each(const Each& each) {
     for (auto& group : points_) each(group);
+    for (auto& group : chains_) each(group);
     for (auto& group : trees_) each(group);
   }
   template <class Each>
   void for_each(const Each& each) const {
     for (const auto& group : points_) each(group);
+    for (const auto& group : chains_) each(group);
     for (const auto& group : trees_) each(group);
   }
   /// The limb in lane l of S.
@@ -88,6 +91,8 @@ class Limbs {
     }
     if (of_lanes[0]->is_point)
       points_.push_back({limbs, is_full, Point<H, S>(of_lanes, plan_of_lanes, layout)});
+    else if (of_lanes[0]->is_chain())
+      chains_.push_back({limbs, is_full, ChainLimb<H, S>(of_lanes, layout)});
     else
       trees_.push_back({limbs, is_full, Limb<H, S>(of_lanes, plan_of_lanes, layout)});
   }
@@ -113,6 +118,7 @@ class Limbs {
   }
 
   std::vector<Group<Point<H, S>>> points_;
+  std::vector<Group<ChainLimb<H, S>>> chains_;
   std::vector<Group<Limb<H, S>>> trees_;
 };
 

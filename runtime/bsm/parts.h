@@ -24,6 +24,13 @@ struct Layout {
 template <class S>
 using MountMotion = LinkMotion<S>;
 
+/// Of the hub, for a rate yet to be told.
+template <class S>
+MountMotion<S> hub_itself() {
+  const S zero(0.0), one(1.0);
+  return {{{one, zero, zero}, {zero, one, zero}, {zero, zero, one}}, {}, {}, {}};
+}
+
 /// Mass, and mass times place from B.
 template <class S>
 struct Moment {

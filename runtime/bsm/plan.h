@@ -47,7 +47,8 @@ struct ChainPlan {
 struct LimbPlan {
   std::vector<LinkPlan> links;  // parents before children
   std::vector<ChainPlan> chains;
-  bool is_point = false;  // one link: a point mass on a slide
+  bool is_point = false;                           // one link: a point mass on a slide
+  bool is_chain() const { return links.empty(); }  // one chain, on the hub
 };
 
 /// The same structure, whatever the constants: their limbs can go side by side.
