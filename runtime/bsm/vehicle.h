@@ -35,7 +35,7 @@ class Vehicle {
     limbs_.build(plans, layout_);
     is_rigid_ = plan_.limbs.empty() && !plan_.tree.links.data()->drains;
     if (is_rigid_) {
-      factors_ = HubFactors(hub_);
+      factors_.factor(hub_);
       inverse_inertia_ = factors_.schur.inverse();
     }
     for (const LimbPlan& limb : plan_.limbs) has_elements_ = has_elements_ || pulls_on(limb);
@@ -115,12 +115,11 @@ class Vehicle {
 
   /// The hub equation's matrix, factored: Schur complement of M.
   struct HubFactors {
-    HubFactors() = default;
-    explicit HubFactors(const Law<H>& hub)
-        : M(hub.M),
-          coupling{M.solve(hub.H.row_x()), M.solve(hub.H.row_y()), M.solve(hub.H.row_z())} {
-      // D - C A^-1 B, symmetric
-      const Mat<H>& c = coupling;
+    /// In place: a copy would be read, wider than it was written, while it is on its way to memory.
+    void factor(const Law<H>& hub) {
+      M = Ldl<H>(hub.M);
+      coupling = {M.solve(hub.H.row_x()), M.solve(hub.H.row_y()), M.solve(hub.H.row_z())};
+      const Mat<H>& c = coupling;  // D - C A^-1 B, symmetric
       schur = Ldl<H>({hub.J.xx - dot(hub.H.row_x(), c.x), hub.J.yy - dot(hub.H.row_y(), c.y),
                       hub.J.zz - dot(hub.H.row_z(), c.z), hub.J.xy - dot(hub.H.row_x(), c.y),
                       hub.J.xz - dot(hub.H.row_x(), c.z), hub.J.yz - dot(hub.H.row_y(), c.z)});
@@ -178,7 +177,7 @@ class Vehicle {
     begin_hub_law(omega, rotor_momentum(state, omega));
     if (push_.acts()) push(time, state, dcm_NB, omega);
     const Vec<H> g_N = sum_laws(vector(state, 0), dcm_NB);
-    if (!is_rigid_) factors_ = HubFactors(hub_);
+    if (!is_rigid_) factors_.factor(hub_);
     const Vec<H> omega_dot = factors_.schur.solve(transposed(factors_.coupling, hub_.f0) - hub_.n0);
     const Vec<H> a = -factors_.M.solve(hub_.f0) - factors_.coupling * omega_dot;
 
