@@ -158,9 +158,10 @@ class Chain {
   /// The chain's law about the origin of its mount.
   Law<S> law(const Field<S>* field) {
     Law<S> law = law_about_root(field);
-    law.n0 += law.H * a_bias_;
-    law.f0 += law.M * a_bias_;
-    return law.moved(r_HP_);
+    law.n0 = plus_product(law.n0, law.H, a_bias_);
+    law.f0 = plus_product(law.f0, law.M, a_bias_);
+    law.move(r_HP_);
+    return law;
   }
 
   /// Joint accelerations from the mount's.

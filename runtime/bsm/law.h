@@ -9,7 +9,7 @@
 // with h the momentum of its rotors (gyrostat).
 //
 //   leaf -> hub   eliminate the joint's own acceleration from s.n = u (hinge) or s.f = u (slide),
-//                 move what is left to the parent's origin, add it to the parent      (limb.h)
+//                 move what is left to the parent's origin, where it is added       (limb.h)
 //   hub           solve 6x6: Schur complement of M, two 3x3 blocks                 (vehicle.h)
 //   hub -> leaf   each joint recovers its acceleration from its parent's
 //
@@ -34,48 +34,29 @@ struct Law {
   Mat<S> H;       // [kg m]
   Vec<S> n0, f0;  // [N m], [N]
 
-  /// The same about the parent's origin, d away.
-  Law moved(const Vec<S>& d) const {
-    const Arm arm = arm_of(d);
-    Law law{J, M, {H.x + arm.K.x, H.y + arm.K.y, H.z + arm.K.z}, n0 + arm.n, f0};
-    law.J.add_twice_symmetric(arm.Z_T);
-    return law;
-  }
-
-  /// Add a child's law, moved to the parent's origin, d away.
-  void add_moved(const Law& child, const Vec<S>& d) {
-    const Arm arm = child.arm_of(d);
-    J += child.J;
-    J.add_twice_symmetric(arm.Z_T);
-    H += child.H;
-    H += arm.K;
-    M += child.M;
-    n0 += child.n0 + arm.n;
-    f0 += child.f0;
-  }
   Law& operator+=(const Law& o) {
     J += o.J;
-    H += o.H;
     M += o.M;
+    H += o.H;
     n0 += o.n0;
     f0 += o.f0;
     return *this;
   }
-
- private:
-  /// What moving by d adds: a' = a_P + omegaDot_P x d and n_P = n + d x f give H_P = H + K with
-  /// K = d~ M, and J_P = J + Z + Z^T with Z^T = (H + K / 2) d~^T.
-  struct Arm {
-    Mat<S> K, Z_T;
-    Vec<S> n;
-  };
-  Arm arm_of(const Vec<S>& d) const {
-    const Mat<S> K{cross(d, M.column_x()), cross(d, M.column_y()), cross(d, M.column_z())};
-    Mat<S> G = K;
-    G.x = H.x + S(0.5) * K.x;
-    G.y = H.y + S(0.5) * K.y;
-    G.z = H.z + S(0.5) * K.z;
-    return {K, {cross(d, G.row_x()), cross(d, G.row_y()), cross(d, G.row_z())}, cross(d, f0)};
+  /// Move it from a child's origin to the parent's, d away: a' = a_P + omegaDot_P x d and
+  /// n_P = n + d x f give H_P = H + d~ M and J_P = J + Z + Z^T with Z^T = (H + H_P) / 2 d~^T.
+  [[gnu::always_inline]] void move(const Vec<S>& d) {
+    Mat<S> both = H;  // H + H_P
+    H = {plus_cross(H.x, d, M.column_x()), plus_cross(H.y, d, M.column_y()),
+         plus_cross(H.z, d, M.column_z())};
+    both += H;
+    const Vec<S> half = S(0.5) * d;
+    J.xx = J.xx + d.y * both.z.x - d.z * both.y.x;
+    J.yy = J.yy + d.z * both.x.y - d.x * both.z.y;
+    J.zz = J.zz + d.x * both.y.z - d.y * both.x.z;
+    J.xy = J.xy + half.y * both.z.y - half.z * both.y.y + half.z * both.x.x - half.x * both.z.x;
+    J.xz = J.xz + half.y * both.z.z - half.z * both.y.z + half.x * both.y.x - half.y * both.x.x;
+    J.yz = J.yz + half.z * both.x.z - half.x * both.z.z + half.x * both.y.y - half.y * both.x.y;
+    n0 = plus_cross(n0, d, f0);
   }
 };
 

@@ -40,6 +40,7 @@ class Limb {
       for (std::size_t l = 0; l < lanes.size(); ++l) of_lanes[l] = &lanes[l]->chains[c];
       chains_.emplace_back(of_lanes, layout);
     }
+    find_first_to_tell();
   }
 
   /// Let masses be those that the tanks leave.
@@ -56,6 +57,9 @@ class Limb {
       const LinkPlan& from = limb.links.data()[i];
       const auto link = static_cast<std::size_t>(from.link);
       set_lane(links_[i].effort, l, held.effort.data()[link - 1]);
+      if (l == 0) links_[i].is_held = false;
+      links_[i].is_held =
+          links_[i].is_held || acts(held.force_L.data()[link]) || acts(held.torque_L.data()[link]);
       set_lane(links_[i].held.force, l, held.force_L.data()[link]);
       set_lane(links_[i].held.torque, l, held.torque_L.data()[link]);
       set_lane(links_[i].held_at_center, l, held.force_at_center_L.data()[link]);
@@ -99,14 +103,12 @@ class Limb {
   /// The limb's law about B.
   /// @param field  null: nothing pulls  @param r_CB  [m] null: nothing acts at the centre of mass
   Law<S> contribute(const Field<S>* field, const Vec<S>* r_CB) {
-    for (std::size_t i = 0; i < links_.size(); ++i) begin_law(i, field, r_CB);
-    Law<S> hub;
+    for (const Chain<H, S>& chain : chains_) laws_[index(chain.mount())] = {};
     for (Chain<H, S>& chain : chains_) laws_[index(chain.mount())] += chain.law(field);
-    for (std::size_t i = links_.size(); i-- > 0;) {
-      eliminate(i);
-      const int parent = links_[i].parent;
-      (parent < 0 ? hub : laws_[index(parent)]).add_moved(laws_[i], motions_[i].r_HP);
-    }
+    for (std::size_t i = links_.size(); i-- > 1;)
+      tell(i, field, r_CB, laws_[index(links_[i].parent)]);
+    Law<S> hub;
+    tell(0, field, r_CB, hub);
     return hub;
   }
 
@@ -212,6 +214,8 @@ class Limb {
     bool slides = false;
     int damped_by_cosine_of = -1;
     bool is_massless = true;  // for good, in every lane, and without rotors
+    bool is_held = false;     // by a load, in some lane
+    bool tells_first = true;  // of all that its parent is told
     Mat<S> turn_fixed, turn_cos, turn_sin;
     Vec<S> r_HP_P, axis_P;
     S stiffness{}, damping{}, rest{}, effort{};
@@ -290,6 +294,22 @@ class Limb {
     }
   }
 
+  /// contribute() goes through chains, then through links from the last to the first.
+  void find_first_to_tell() {
+    std::vector<bool> is_told(links_.size(), false);
+    for (const Chain<H, S>& chain : chains_)
+      if (chain.mount() >= 0) is_told[index(chain.mount())] = true;
+    for (std::size_t i = links_.size(); i-- > 1;) {
+      const std::size_t parent = index(links_[i].parent);
+      links_[i].tells_first = !is_told[parent];
+      is_told[parent] = true;
+    }
+  }
+
+  static bool acts(const typename HeldInputsIn<Number<H>>::Vector& v) {
+    return !(vanishes(v.x()) && vanishes(v.y()) && vanishes(v.z()));
+  }
+
   void set_velocity(std::size_t i) {
     Motion& m = motions_[i];
     const MountMotion<S>& parent = mount(links_[i].parent);
@@ -347,31 +367,50 @@ class Limb {
     return link.damping * cosine * cosine;
   }
 
-  void begin_law(std::size_t i, const Field<S>* field, const Vec<S>* r_CB) {
+  /// Let the parent know what link i and all beyond it ask, about the parent's origin.
+  void tell(std::size_t i, const Field<S>* field, const Vec<S>* r_CB, Law<S>& parent) {
+    Law<S> law = laws_[i];
+    add_own(i, law);
+    add_loads(i, field, r_CB, law);
+    eliminate(i, law);
+    law.move(motions_[i].r_HP);
+    if (links_[i].tells_first)
+      parent = law;
+    else
+      parent += law;
+  }
+
+  [[gnu::always_inline]] void add_own(std::size_t i, Law<S>& law) const {
+    const Link& link = links_[i];
+    const Motion& m = motions_[i];
+    if (link.is_massless) return;
+    const Vec<S>&omega = m.at.omega, &moment = m.moment;
+    const Sym<S> J = link.mass.J.turned(m.at.dcm_WL);
+    law.J += J;
+    law.H += cross_matrix(moment);
+    law.M += Sym<S>::isotropic(link.mass.mass);
+    law.n0 = plus_cross(law.n0, omega, J * omega + m.spin);
+    law.f0 = plus_cross(law.f0, omega, cross(omega, moment));
+  }
+
+  /// Of motors, loads, forces and gravity.
+  [[gnu::always_inline]] void add_loads(std::size_t i, const Field<S>* field, const Vec<S>* r_CB,
+                                        Law<S>& law) const {
     const Link& link = links_[i];
     const Motion& m = motions_[i];
     const Mat<S>& dcm = m.at.dcm_WL;
-    const Vec<S>& omega = m.at.omega;
-    Law<S>& law = laws_[i];
-    if (link.is_massless) {
-      law = {};
-      law.n0 = -(dcm * link.held.torque);
-      law.f0 = -(dcm * link.held.force);
-    } else {
-      law.J = link.mass.J.turned(dcm);
-      law.H = cross_matrix(m.moment);
-      law.M = Sym<S>::isotropic(link.mass.mass);
-      law.n0 = cross(omega, law.J * omega + m.spin) - dcm * link.held.torque;
-      law.f0 = cross(omega, cross(omega, m.moment)) - dcm * link.held.force;
-    }
     for (const RotorOn<H, S>& rotor : link.rotors) {
       law.n0 += dcm * (rotor.motor_torque * rotor.axis_L);
+    }
+    if (link.is_held) {
+      law.n0 -= dcm * link.held.torque;
+      law.f0 -= dcm * link.held.force;
     }
     if (is_watched_) {
       law.n0 -= m.pushed.torque;
       law.f0 -= m.pushed.force;
     }
-    if (field != nullptr) pull(i, *field);
+    if (field != nullptr) pull(i, *field, law);
     if (r_CB != nullptr) {
       const Vec<S> force = dcm * link.held_at_center;
       law.f0 -= force;
@@ -379,7 +418,7 @@ class Limb {
     }
   }
 
-  void pull(std::size_t i, const Field<S>& field) {
+  void pull(std::size_t i, const Field<S>& field, Law<S>& law) const {
     const Motion& m = motions_[i];
     Pull<S> sum;
     for (const ElementNow<S>& element : links_[i].elements) {
@@ -390,19 +429,19 @@ class Limb {
         sum.torque += field.gradient_torque(place, element.I.turned(m.at.dcm_WL));
       }
     }
-    laws_[i].f0 -= sum.force;
-    laws_[i].n0 -= sum.torque;
+    law.f0 -= sum.force;
+    law.n0 -= sum.torque;
   }
 
-  void eliminate(std::size_t i) {
+  /// Take the joint's own acceleration out.
+  [[gnu::always_inline]] void eliminate(std::size_t i, Law<S>& law) {
     const Motion& m = motions_[i];
     const Vec<S>& s = m.axis;
-    Law<S>& law = laws_[i];
 
     // Known part of the link's own acceleration; U: how n and f answer to qDDot. Along the joint
     // the effort alone acts.
-    law.n0 += law.H * m.a_bias;
-    law.f0 += law.M * m.a_bias;
+    law.n0 = plus_product(law.n0, law.H, m.a_bias);
+    law.f0 = plus_product(law.f0, law.M, m.a_bias);
     Vec<S> U_n, U_f;
     S along, known;
     if (links_[i].slides) {
@@ -411,7 +450,7 @@ class Limb {
       along = dot(s, U_f);
       known = dot(s, law.f0);
     } else {
-      law.n0 += law.J * m.omega_bias;
+      law.n0 = plus_product(law.n0, law.J, m.omega_bias);
       law.f0 += transposed(law.H, m.omega_bias);
       U_n = law.J * s;
       U_f = transposed(law.H, s);
@@ -433,7 +472,7 @@ class Limb {
   std::vector<Link> links_;
   std::vector<DrainingLink> draining_;
   std::vector<Motion> motions_;
-  std::vector<Law<S>> laws_;
+  std::vector<Law<S>> laws_;  // that what hangs on a link asks of it; never anything of a leaf
   std::vector<Recovery> recoveries_;
   std::vector<Chain<H, S>> chains_;
   MountMotion<S> hub_ = hub_itself<S>();

@@ -39,6 +39,12 @@ Vec<S> cross(const Vec<S>& a, const Vec<S>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
+/// v + a x b. So written, each product and sum rounds once where the set fuses them.
+template <class S>
+Vec<S> plus_cross(const Vec<S>& v, const Vec<S>& a, const Vec<S>& b) {
+  return {v.x + a.y * b.z - a.z * b.y, v.y + a.z * b.x - a.x * b.z, v.z + a.x * b.y - a.y * b.x};
+}
+
 /// By columns.
 template <KernelScalar S>
 struct Mat {
@@ -52,6 +58,9 @@ struct Mat {
     z += o.z;
     return *this;
   }
+  const Vec<S>& column_x() const { return x; }
+  const Vec<S>& column_y() const { return y; }
+  const Vec<S>& column_z() const { return z; }
   Vec<S> row_x() const { return {x.x, y.x, z.x}; }
   Vec<S> row_y() const { return {x.y, y.y, z.y}; }
   Vec<S> row_z() const { return {x.z, y.z, z.z}; }
@@ -62,6 +71,14 @@ struct Mat {
     z -= v.z * u;
   }
 };
+
+/// v + m a, fused like plus_cross().
+template <class S, class M>
+[[gnu::always_inline]] inline Vec<S> plus_product(const Vec<S>& v, const M& m, const Vec<S>& a) {
+  const Vec<S> x = m.column_x(), y = m.column_y(), z = m.column_z();
+  return {v.x + x.x * a.x + y.x * a.y + z.x * a.z, v.y + x.y * a.x + y.y * a.y + z.y * a.z,
+          v.z + x.z * a.x + y.z * a.y + z.z * a.z};
+}
 
 /// m^T v
 template <class S>
