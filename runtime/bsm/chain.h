@@ -105,6 +105,11 @@ class Chain {
   }
 
   int mount() const { return mount_; }  // in the limb; -1: the hub
+  /// Let the mount's axes be others.
+  void turn_mount(const Mat<S>& dcm) {
+    r_HP_P_ = dcm * r_HP_P_;
+    dcm_PC_ = dcm * dcm_PC_;
+  }
 
   void hold(std::size_t lane_index, const ChainPlan& plan, const HeldInputsIn<Number<H>>& held) {
     for (std::size_t i = 0; i < links_.size(); ++i) {

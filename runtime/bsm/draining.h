@@ -90,6 +90,11 @@ struct LinkMass {
     set_lane(J.xz, l, from.J_L(2, 0));
     set_lane(J.yz, l, from.J_L(2, 1));
   }
+  /// Into other axes.
+  void turn(const Mat<S>& dcm) {
+    moment = dcm * moment;
+    J = J.turned(dcm);
+  }
   void add(const S& share, const LinkMass& part) {
     mass += share * part.mass;
     moment += share * part.moment;
@@ -124,6 +129,13 @@ class LinkDrain {
       elements_[e].tank[l % kLimbs<H, S>] = from.tank < 0 ? no_tank : from.tank;
       elements_[e].full.set(l, from);
     }
+  }
+
+  /// Into other axes than the link's own.
+  void turn(const Mat<S>& dcm) {
+    fixed_.turn(dcm);
+    for (auto& part : parts_) part.full.turn(dcm);
+    for (auto& part : elements_) part.full.turn(dcm);
   }
 
   /// In some lane.

@@ -31,15 +31,19 @@ class Limb {
     recoveries_.resize(first.links.size());
     for (std::size_t l = 0; l < lanes.size(); ++l) set(l, *lanes[l], *plans[l], layout);
     for (std::size_t i = 0; i < links_.size(); ++i) {
+      if (!links_[i].slides) hinges_.push_back(i);
       LinkDrain<H, S> drain;
       for (std::size_t l = 0; l < lanes.size(); ++l) drain.set(l, *plans[l], lanes[l]->links[i]);
+      drain.turn(links_[i].dcm_KL);
       if (drain.drains()) draining_.push_back({i, drain});
     }
     for (std::size_t c = 0; c < first.chains.size(); ++c) {
       std::array<const ChainPlan*, kLanes<S>> of_lanes;
       for (std::size_t l = 0; l < lanes.size(); ++l) of_lanes[l] = &lanes[l]->chains[c];
-      chains_.emplace_back(of_lanes, layout);
+      Chain<H, S>& chain = chains_.emplace_back(of_lanes, layout);
+      if (chain.mount() >= 0) chain.turn_mount(links_[index(chain.mount())].dcm_KL);
     }
+    turn_links();
     find_first_to_tell();
   }
 
@@ -76,7 +80,9 @@ class Limb {
   void watch() { is_watched_ = true; }
   /// How link i of a limb moves, after move().
   LinkMotion<H> motion_of(std::size_t i, std::size_t limb) const {
-    return picked<H>(motions_[i].at, limb);
+    MountMotion<S> motion = motions_[i].at;
+    motion.dcm_WL = dcm_WL(i);
+    return picked<H>(motion, limb);
   }
   void push(std::size_t i, std::size_t limb, const Pull<H>& pull) {
     add_to<H>(motions_[i].pushed.force, limb, pull.force);
@@ -86,6 +92,7 @@ class Limb {
   /// Positions and rates of all links from those of the hub.
   void move(const Number<H>* state, const Vec<S>& omega_BN_B) {
     hub_.omega = omega_BN_B;
+    turn_hinges(state);
     for (std::size_t i = 0; i < links_.size(); ++i) move_link(i, state);
     for (Chain<H, S>& chain : chains_) chain.move(state, mount(chain.mount()));
   }
@@ -126,11 +133,9 @@ class Limb {
       scatter<H, S>(q_ddot, rate, link.rate);
       m.omega_dot = omega_dot_P + m.omega_bias;
       m.a = a_joint + m.a_bias;
-      (link.slides ? m.a : m.omega_dot) += q_ddot * m.axis;
-      for (const RotorOn<H, S>& rotor : link.rotors) {
-        const Vec<S> axis = m.at.dcm_WL * rotor.axis_L;
-        scatter<H, S>(rotor.spin_up - dot(axis, m.omega_dot), rate, rotor.speed);
-      }
+      (link.slides ? m.a : m.omega_dot) += q_ddot * m.axis();
+      for (const RotorOn<H, S>& rotor : link.rotors)
+        scatter<H, S>(rotor.spin_up - dot(rotor.axis, m.omega_dot), rate, rotor.speed);
     }
     for (const Chain<H, S>& chain : chains_) {
       const Motion& mount = motions_[index(chain.mount())];
@@ -170,9 +175,10 @@ class Limb {
     Outside<S> outside;
     for (std::size_t i = 0; i < links_.size(); ++i) {
       const MountMotion<S>& at = motions_[i].at;
-      Pull<S> sum{at.dcm_WL * links_[i].held.force, at.dcm_WL * links_[i].held.torque};
+      const Mat<S> dcm = dcm_WL(i);
+      Pull<S> sum{dcm * links_[i].held.force, dcm * links_[i].held.torque};
       if (is_watched_) sum.add(motions_[i].pushed);
-      if (r_CB != nullptr) sum.add(at.dcm_WL * links_[i].held_at_center, *r_CB - at.r_LB);
+      if (r_CB != nullptr) sum.add(dcm * links_[i].held_at_center, *r_CB - at.r_LB);
       outside.add(sum, at);
     }
     return outside;
@@ -216,29 +222,29 @@ class Limb {
     bool is_massless = true;  // for good, in every lane, and without rotors
     bool is_held = false;     // by a load, in some lane
     bool tells_first = true;  // of all that its parent is told
-    Mat<S> turn_fixed, turn_cos, turn_sin;
-    Vec<S> r_HP_P, axis_P;
+    Mat<S> dcm_KL, dcm_PK0;   // P: the parent's axes K, or the hub's
+    Vec<S> r_HP_P;
     S stiffness{}, damping{}, rest{}, effort{};
-    Pull<S> held;           // link axes, about the origin
-    Vec<S> held_at_center;  // [N] link axes
-    LinkMass<S> mass;
+    Pull<S> held;           // link axes L, about the origin
+    Vec<S> held_at_center;  // [N] link axes L
+    LinkMass<S> mass;       // axes K, as of elements and rotors
     Places<H, S> position{}, rate{};
     std::vector<ElementNow<S>> elements;
     std::vector<RotorOn<H, S>> rotors;
   };
   struct Motion {
-    MountMotion<S> at;
-    S u{};  // effort and spring
-    S q_dot{};
-    S cosine = S(1.0);  // of a hinge's angle
-    Vec<S> axis;        // s
-    Vec<S> r_HP;        // [m] link origin from its parent's
-    Vec<S> omega_bias;  // omegaDot = omegaDot_P + omega_bias + s qDDot (hinge)
-    Vec<S> a_bias;      // a = a_P + omegaDot_P x r_HP + a_bias + s qDDot (slide)
-    Vec<S> spin;        // [kg m^2/s] momentum of the rotors
-    Vec<S> moment;      // [kg m] from the origin
+    MountMotion<S> at;  // of axes K
+    S u{};              // effort and spring
+    S q{}, q_dot{};
+    SineCosine<S> turn{S(0.0), S(1.0)};  // of a hinge's angle
+    Vec<S> r_HP;                         // [m] link origin from its parent's
+    Vec<S> omega_bias;                   // omegaDot = omegaDot_P + omega_bias + s qDDot (hinge)
+    Vec<S> a_bias;                       // a = a_P + omegaDot_P x r_HP + a_bias + s qDDot (slide)
+    Vec<S> moment;                       // [kg m] from the origin
     Vec<S> omega_dot, a;
     Pull<S> pushed;  // about the origin, by forces that follow the motion
+
+    const Vec<S>& axis() const { return at.dcm_WL.z; }  // s
   };
   struct DrainingLink {
     std::size_t link = 0;
@@ -252,6 +258,7 @@ class Limb {
 
   static std::size_t index(int i) { return static_cast<std::size_t>(i); }
   const MountMotion<S>& mount(int i) const { return i < 0 ? hub_ : motions_[index(i)].at; }
+  Mat<S> dcm_WL(std::size_t i) const { return motions_[i].at.dcm_WL * links_[i].dcm_KL; }
 
   /// Such as the first of a pendulum's two links.
   static bool has_no_mass(const bsm::LinkConstants& link) {
@@ -269,11 +276,9 @@ class Limb {
       link.parent = from.parent;
       link.slides = constants.kind == JointKind::kSlide;
       link.damped_by_cosine_of = from.damped_by_cosine_of;
-      set_lane(link.turn_fixed, l, constants.turn_fixed);
-      set_lane(link.turn_cos, l, constants.turn_cos);
-      set_lane(link.turn_sin, l, constants.turn_sin);
+      set_lane(link.dcm_KL, l, constants.dcm_KL);
+      set_lane(link.dcm_PK0, l, constants.dcm_PK0);
       set_lane(link.r_HP_P, l, constants.r_HP_P);
-      set_lane(link.axis_P, l, constants.axis_P);
       set_lane(link.stiffness, l, constants.stiffness);
       set_lane(link.damping, l, constants.damping);
       set_lane(link.rest, l, constants.rest);
@@ -291,6 +296,19 @@ class Limb {
         link.rotors[k].set(l, plan.tree.rotors[index(from.rotors[k])],
                            layout.wheel + from.rotors[k]);
       }
+    }
+  }
+
+  /// From their axes L into K.
+  void turn_links() {
+    for (Link& link : links_) {
+      link.mass.turn(link.dcm_KL);
+      for (ElementNow<S>& element : link.elements) element.turn(link.dcm_KL);
+      for (RotorOn<H, S>& rotor : link.rotors) rotor.axis_L = link.dcm_KL * rotor.axis_L;
+      if (link.parent < 0) continue;
+      const Mat<S>& dcm = links_[index(link.parent)].dcm_KL;
+      link.r_HP_P = dcm * link.r_HP_P;
+      link.dcm_PK0 = dcm * link.dcm_PK0;
     }
   }
 
@@ -314,56 +332,62 @@ class Limb {
     Motion& m = motions_[i];
     const MountMotion<S>& parent = mount(links_[i].parent);
     m.at.v_LB = parent.v_LB + cross(parent.omega, m.r_HP);
-    if (links_[i].slides) m.at.v_LB += m.q_dot * m.axis;
+    if (links_[i].slides) m.at.v_LB += m.q_dot * m.axis();
+  }
+
+  void turn_hinges(const Number<H>* state) {
+    for (const std::size_t i : hinges_) motions_[i].q = gather<H, S>(state, links_[i].position);
+    std::size_t k = 0;
+    if constexpr (kTakesTwoAngles<S>) {
+      for (; k + 1 < hinges_.size(); k += 2) {
+        Motion &m = motions_[hinges_[k]], &next = motions_[hinges_[k + 1]];
+        put_sines_cosines(m.q, next.q, m.turn, next.turn);
+      }
+    }
+    for (; k < hinges_.size(); ++k) motions_[hinges_[k]].turn = sine_cosine(motions_[hinges_[k]].q);
   }
 
   void move_link(std::size_t i, const Number<H>* state) {
     const Link& link = links_[i];
     Motion& m = motions_[i];
-    const bool on_hub = link.parent < 0;
     const MountMotion<S>& parent = mount(link.parent);
-    const S q = gather<H, S>(state, link.position);
-    const S q_dot = gather<H, S>(state, link.rate);
-
-    m.axis = on_hub ? link.axis_P : parent.dcm_WL * link.axis_P;
-    m.r_HP = on_hub ? link.r_HP_P : parent.dcm_WL * link.r_HP_P;
-    Mat<S> dcm_PL = link.turn_fixed;
-    const Vec<S> slip = cross(parent.omega, m.axis);
+    Mat<S> dcm = link.dcm_PK0;
+    m.r_HP = link.r_HP_P;
+    if (link.parent >= 0) {
+      dcm = parent.dcm_WL * dcm;
+      m.r_HP = parent.dcm_WL * m.r_HP;
+    }
+    const Vec<S> slip = cross(parent.omega, dcm.z);
+    m.q_dot = gather<H, S>(state, link.rate);
     if (link.slides) {
-      m.r_HP += q * m.axis;
+      m.q = gather<H, S>(state, link.position);
+      m.r_HP += m.q * dcm.z;
       m.at.omega = parent.omega;
       m.omega_bias = {};
-      m.a_bias = cross(parent.omega, cross(parent.omega, m.r_HP)) + (q_dot + q_dot) * slip;
+      m.a_bias = cross(parent.omega, cross(parent.omega, m.r_HP)) + (m.q_dot + m.q_dot) * slip;
     } else {
-      const auto [sine, cosine] = sine_cosine(q);
-      m.cosine = cosine;
-      dcm_PL = {link.turn_fixed.x + cosine * link.turn_cos.x + sine * link.turn_sin.x,
-                link.turn_fixed.y + cosine * link.turn_cos.y + sine * link.turn_sin.y,
-                link.turn_fixed.z + cosine * link.turn_cos.z + sine * link.turn_sin.z};
-      m.at.omega = parent.omega + q_dot * m.axis;
-      m.omega_bias = q_dot * slip;
+      const auto& [sine, cosine] = m.turn;
+      const Vec<S> x = dcm.x;
+      dcm.x = cosine * x + sine * dcm.y;
+      dcm.y = cosine * dcm.y - sine * x;
+      m.at.omega = parent.omega + m.q_dot * dcm.z;
+      m.omega_bias = m.q_dot * slip;
       m.a_bias = cross(parent.omega, cross(parent.omega, m.r_HP));
     }
-    m.at.dcm_WL = on_hub ? dcm_PL : parent.dcm_WL * dcm_PL;
+    m.at.dcm_WL = dcm;
     m.at.r_LB = parent.r_LB + m.r_HP;
-    m.moment = m.at.dcm_WL * link.mass.moment;
-    m.u = link.effort - link.stiffness * (q - link.rest);
-    m.q_dot = q_dot;
+    m.moment = dcm * link.mass.moment;
+    m.u = link.effort - link.stiffness * (m.q - link.rest);
     if (is_watched_) {
       set_velocity(i);
       m.pushed = {};
     }
-    m.spin = {};
-    for (const RotorOn<H, S>& rotor : link.rotors) {
-      const Vec<S> axis = m.at.dcm_WL * rotor.axis_L;
-      const S speed = gather<H, S>(state, rotor.speed);
-      m.spin += (rotor.spin_inertia * (speed + dot(axis, m.at.omega))) * axis;
-    }
+    for (RotorOn<H, S>& rotor : links_[i].rotors) rotor.move(state, m.at);
   }
 
   S damping(const Link& link) const {
     if (link.damped_by_cosine_of < 0) return link.damping;
-    const S& cosine = motions_[index(link.damped_by_cosine_of)].cosine;
+    const S& cosine = motions_[index(link.damped_by_cosine_of)].turn.cosine;
     return link.damping * cosine * cosine;
   }
 
@@ -389,7 +413,9 @@ class Limb {
     law.J += J;
     law.H += cross_matrix(moment);
     law.M += Sym<S>::isotropic(link.mass.mass);
-    law.n0 = plus_cross(law.n0, omega, J * omega + m.spin);
+    Vec<S> spin = J * omega;
+    for (const RotorOn<H, S>& rotor : link.rotors) spin += rotor.momentum * rotor.axis;
+    law.n0 = plus_cross(law.n0, omega, spin);
     law.f0 = plus_cross(law.f0, omega, cross(omega, moment));
   }
 
@@ -398,11 +424,9 @@ class Limb {
                                         Law<S>& law) const {
     const Link& link = links_[i];
     const Motion& m = motions_[i];
-    const Mat<S>& dcm = m.at.dcm_WL;
-    for (const RotorOn<H, S>& rotor : link.rotors) {
-      law.n0 += dcm * (rotor.motor_torque * rotor.axis_L);
-    }
+    for (const RotorOn<H, S>& rotor : link.rotors) law.n0 += rotor.motor_torque * rotor.axis;
     if (link.is_held) {
+      const Mat<S> dcm = dcm_WL(i);
       law.n0 -= dcm * link.held.torque;
       law.f0 -= dcm * link.held.force;
     }
@@ -412,7 +436,7 @@ class Limb {
     }
     if (field != nullptr) pull(i, *field, law);
     if (r_CB != nullptr) {
-      const Vec<S> force = dcm * link.held_at_center;
+      const Vec<S> force = dcm_WL(i) * link.held_at_center;
       law.f0 -= force;
       law.n0 -= cross(*r_CB - m.at.r_LB, force);
     }
@@ -436,7 +460,7 @@ class Limb {
   /// Take the joint's own acceleration out.
   [[gnu::always_inline]] void eliminate(std::size_t i, Law<S>& law) {
     const Motion& m = motions_[i];
-    const Vec<S>& s = m.axis;
+    const Vec<S>& s = m.axis();
 
     // Known part of the link's own acceleration; U: how n and f answer to qDDot. Along the joint
     // the effort alone acts.
@@ -470,6 +494,7 @@ class Limb {
   }
 
   std::vector<Link> links_;
+  std::vector<std::size_t> hinges_;  // of them
   std::vector<DrainingLink> draining_;
   std::vector<Motion> motions_;
   std::vector<Law<S>> laws_;  // that what hangs on a link asks of it; never anything of a leaf

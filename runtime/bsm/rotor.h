@@ -12,6 +12,9 @@ struct RotorOn {
   Vec<S> axis_L;
   S spin_inertia{}, motor_torque{};
   S spin_up{};  // [rad/s^2] what the motor gives a wheel on a mount at rest
+  // After move().
+  Vec<S> axis;   // hub axes
+  S momentum{};  // [kg m^2/s] about it
   Places<H, S> speed{};
 
   /// What the motor gives the wheel [W].
@@ -19,6 +22,11 @@ struct RotorOn {
   void hold(std::size_t l, const Number<S>& torque) {
     set_lane(motor_torque, l, torque);
     set_lane(spin_up, l, torque / lane(spin_inertia, l));
+  }
+  /// With its mount, which is not the hub.
+  void move(const Number<H>* state, const MountMotion<S>& mount) {
+    axis = mount.dcm_WL * axis_L;
+    momentum = spin_inertia * (gather<H, S>(state, speed) + dot(axis, mount.omega));
   }
   void set(std::size_t l, const RotorConstants& from, int place) {
     set_lane(axis_L, l, from.axis_L);

@@ -7,10 +7,21 @@
 namespace twincraft::bsm {
 namespace {
 
+/// @param s  unit. Exact where s is a coordinate axis.
+Matrix3d axes_with_third(const Vector3d& s) {
+  Matrix3d dcm_LK;
+  const Vector3d x = s.unitOrthogonal();
+  dcm_LK << x, s.cross(x), s;
+  return dcm_LK;
+}
+
 void prepare_joint(const Joint& joint, LinkConstants& link) {
   link.kind = joint.kind;
   link.r_HP_P = joint.r_HP_P;
   link.axis_P = joint.dcm_PL0 * joint.axis_L;
+  const Matrix3d dcm_LK = axes_with_third(joint.axis_L);
+  link.dcm_KL = dcm_LK.transpose();
+  link.dcm_PK0 = joint.dcm_PL0 * dcm_LK;
   link.stiffness = joint.stiffness;
   link.damping = joint.damping;
   link.damped_by_cosine_of = joint.damped_by_cosine_of;

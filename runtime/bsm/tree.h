@@ -17,8 +17,11 @@ struct LinkConstants {
   int children = 0;  // how many links are joined to it
   JointKind kind = JointKind::kHinge;
   Matrix3d turn_fixed, turn_cos, turn_sin;  // a slide only uses turn_fixed = dcm_PL0
-  Vector3d r_HP_P;                          // [m] joint from the parent's origin
-  Vector3d axis_P;                          // unit, parent axes: a turn about it leaves it alone
+  // K: the link's axes turned so that the third is that of the joint, about which a hinge turns two
+  // columns. The general path of the kernel works in them.
+  Matrix3d dcm_KL, dcm_PK0;  // PK0: at zero
+  Vector3d r_HP_P;           // [m] joint from the parent's origin
+  Vector3d axis_P;           // unit, parent axes: a turn about it leaves it alone
   double stiffness = 0.0, damping = 0.0, rest = 0.0;
   int damped_by_cosine_of = -1;  // see Joint
   bool drains = false;           // its mass follows the tanks: see Draining

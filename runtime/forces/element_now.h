@@ -19,6 +19,11 @@ struct ElementNow {
     set_lane(r_EL, l, full.r_EL_L);
     set_lane(I, l, full.I_PntE_L);
   }
+  /// Into other axes.
+  void turn(const Mat<S>& dcm) {
+    r_EL = dcm * r_EL;
+    I = I.turned(dcm);
+  }
   /// The share of a tank that it drains with; where it is does not change.
   void keep(const S& share, const ElementNow& full) {
     mass = share * full.mass;
