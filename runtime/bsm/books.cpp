@@ -4,15 +4,21 @@
 namespace twincraft::bsm {
 namespace {
 
+using namespace TWINCRAFT_KERNEL;
+
 MovingElement moving(const Elements::Placed& element, const Motion& motion) {
   const LinkPose& pose = motion.poses[element.link];
   const LinkRate& rate = motion.rates[element.link];
-  const Vector3d r_EL = pose.dcm_WL * element.r_EL_L();
+  const bool on_hub = element.link == 0;  // whose axes are the working axes
+  const Vector3d r_EL = on_hub ? element.r_EL_L() : Vector3d(pose.dcm_WL * element.r_EL_L());
   const Vector3d v_E = rate.v_LB_W + rate.omega_LN_W.cross(r_EL);
-  if (element.is_point()) return {element.mass, pose.r_LB_W + r_EL, v_E, Vector3d::Zero(), 0.0};
-  const Vector3d omega_L = pose.dcm_WL.transpose() * rate.omega_LN_W;
-  const Vector3d spin_L = element.I_PntE_L() * omega_L;
-  return {element.mass, pose.r_LB_W + r_EL, v_E, pose.dcm_WL * spin_L, 0.5 * omega_L.dot(spin_L)};
+  if (element.is_point) return {element.mass, pose.r_LB_W + r_EL, v_E, Vector3d::Zero(), 0.0};
+  const Vector3d& omega = rate.omega_LN_W;
+  const Matrix3d& dcm = pose.dcm_WL;
+  const Vector3d omega_L = on_hub ? omega : Vector3d(dcm.transpose() * omega);
+  const Vector3d spin_L = eigen(element.I * vec(omega_L));
+  const Vector3d spin = on_hub ? spin_L : Vector3d(dcm * spin_L);
+  return {element.mass, pose.r_LB_W + r_EL, v_E, spin, 0.5 * omega_L.dot(spin_L)};
 }
 
 }  // namespace

@@ -55,9 +55,8 @@ class BsmEngine final : public Engine {
         held_(HeldInputs::none(machine_->assembly)),
         propellant_(machine_->propellant),
         forces_(machine_->forces),
-        tree_(machine_->plan.tree),
         elements_(machine_->elements),
-        motion_(at_rest(tree_)) {
+        motion_(at_rest(tree())) {
     BsmEngine::hold(machine_->start);
   }
 
@@ -91,16 +90,17 @@ class BsmEngine final : public Engine {
     const State x = read(state);
     assign(x, seen);
     seen.time = time;
-    move_links(tree_, x.joint_position, x.joint_rate, x.omega_BN_B, motion_);
-    fill_books(sum_up(motion_, elements_, tree_, x.wheel_rate, moving_), x.dcm_NB, seen);
-    seen.springs = spring_energy(tree_, x.joint_position);
+    move_links(tree(), x.joint_position, x.joint_rate, x.omega_BN_B, motion_);
+    fill_books(sum_up(motion_, elements_, tree(), x.wheel_rate, moving_), x.dcm_NB, seen);
+    seen.springs = spring_energy(tree(), x.joint_position);
     seen.potential = seen.springs + forces_.potential(x.r_BN_B(), motion_.poses);
   }
 
   Eigen::MatrixXd mass_matrix(std::span<const double> state) override {
-    drain(held_.inputs.since);
+    Tree tree = machine_->plan.tree;
+    set_shares(tree, propellant_.shares(held_.inputs.since));
     const State x = read(state);
-    return dense_mass_matrix(tree_, motion_of(tree_, x.joint_position, x.joint_rate, x.omega_BN_B),
+    return dense_mass_matrix(tree, motion_of(tree, x.joint_position, x.joint_rate, x.omega_BN_B),
                              x.dcm_NB);
   }
 
@@ -147,12 +147,14 @@ class BsmEngine final : public Engine {
     return {x, x.q_BN.toRotationMatrix()};
   }
 
+  /// How its links are joined; their masses as at t = 0.
+  const Tree& tree() const { return machine_->plan.tree; }
+
   /// Let the masses of observations be those that the tanks leave; the kernel has its own.
   void drain(double time) {
     if (propellant_.is_idle() || time == drained_to_) return;
     drained_to_ = time;
     const std::span<const double> shares = propellant_.shares(time);
-    set_shares(tree_, shares);
     elements_.set_shares(shares);
     forces_.set_shares(shares);
   }
@@ -164,8 +166,7 @@ class BsmEngine final : public Engine {
   // For observations; the kernel has its own forces and masses.
   PropellantLedger propellant_;
   ForceModel forces_;
-  Tree tree_;                // with the masses at drained_to_
-  Elements elements_;        // so too
+  Elements elements_;        // with the masses at drained_to_
   double drained_to_ = 0.0;  // [s] NaN: at no time
   Motion motion_;
   std::vector<MovingElement> moving_;
