@@ -24,14 +24,19 @@ class Bookkeeper {
     dcm_NB_ = vehicle_.plan_.chart == AttitudeChart::kMrp
                   ? Mrp<H>(state_, Layout::kAttitude).dcm_NB()
                   : Quaternion<H>(state_, Layout::kAttitude).dcm_NB();
+    const Moment<H> mass = moment();
+    const H inverse_mass = H(1.0) / mass.mass;
     Tally<H> tally;
-    tally.moment = moment();
+    tally.r_CB = inverse_mass * mass.moment;
     Field<H> field;
     if (falls()) {
-      field = vehicle_.field_at(vehicle_.vector(state_, 0), dcm_NB_, tally.r_CB());
-      books.force_N = tally.moment.mass * field.at_hub();
+      field = vehicle_.field_at(vehicle_.vector(state_, 0), dcm_NB_, tally.r_CB);
+      books.force_N = mass.mass * field.at_hub();
+      if (!changes) return books;
+      field = field.in_axes(dcm_NB_);
     }
-    if (changes) book_changes(field.in_axes(dcm_NB_), tally, books);
+    tally.v_CB = inverse_mass * momentum();
+    book_changes(field, tally, books);
     return books;
   }
 
@@ -55,14 +60,14 @@ class Bookkeeper {
     return sum;
   }
 
-  /// @param field  in hub axes  @param tally  has the moment
+  /// @param field  in hub axes  @param tally  knows the centre of mass
   void book_changes(const Field<H>& field, Tally<H>& tally, BooksOf<H>& books) {
-    tally.momentum = momentum();
-    const Vec<H> v_BN_N = vehicle_.vector(state_, 3);
-    if (loads_act()) tally.book_loads(loads(tally.r_CB()), dcm_NB_, v_BN_N, books);
-    if (vehicle_.has_elements_) tally.book_gravity(gravity(field), dcm_NB_, books);
-    if (vehicle_.tanks_.flow())
-      tally.book_leaving(leaving(field, tally.r_CB()), dcm_NB_, v_BN_N, books);
+    if (loads_act()) tally.add_loads(loads(tally.r_CB), books);
+    if (vehicle_.has_elements_) tally.add_gravity(gravity(field), dcm_NB_, books);
+    if (vehicle_.tanks_.flow()) tally.add_leaving(leaving(field, tally.r_CB), books);
+    if (loads_act() || vehicle_.tanks_.flow())
+      tally.book_driving(dcm_NB_, vehicle_.vector(state_, 3), books);
+    tally.book_own(dcm_NB_, books);
   }
 
   /// Lets limbs know their velocities.
@@ -108,7 +113,7 @@ class Bookkeeper {
     const Field<S> field_S = vehicle_.spread(field);
     const Field<S>* pulls = vehicle_.has_elements_ ? &field_S : nullptr;
     Leaving<H> sum;
-    add_limbs([&](const auto& limb) { return limb.leaving(vehicle_.tanks_, pulls); }, sum);
+    add_limbs([&](const auto& limb) { return limb.leaving(pulls); }, sum);
     add_leaving_hub(field, sum);
     if (!falls()) return sum;
     const Moment<H>& lost = sum.moment;
@@ -120,9 +125,9 @@ class Bookkeeper {
   void add_leaving_hub(const Field<H>& field, Leaving<H>& sum) const {
     const LinkDrain<H, H>& draining = vehicle_.draining_;
     if (!draining.drains()) return;
-    sum.add_on_hub(draining.mass_rate(vehicle_.tanks_), hub_.omega);
+    sum.add_on_hub(draining.mass_rate(), hub_.omega);
     for (std::size_t e = 0; e < vehicle_.elements_.size(); ++e)
-      sum.lift(draining.element_rate(e, vehicle_.tanks_), vehicle_.elements_[e].r_EL, field);
+      sum.lift(draining.element_rate(e), vehicle_.elements_[e].r_EL, field);
   }
 
   /// @param of  what the limbs of one group say, side by side  @param sum  takes it of all limbs

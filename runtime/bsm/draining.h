@@ -123,7 +123,10 @@ class LinkDrain {
         parts_[k].full.set(l, from.full);
       }
     }
-    if (l == 0) elements_.resize(link.elements.size());
+    if (l == 0) {
+      elements_.resize(link.elements.size());
+      element_rates_.resize(link.elements.size());
+    }
     for (std::size_t e = 0; e < elements_.size(); ++e) {
       const MassElement& from = link.elements.data()[e];
       elements_[e].tank[l % kLimbs<H, S>] = from.tank < 0 ? no_tank : from.tank;
@@ -146,22 +149,18 @@ class LinkDrain {
     for (const auto& part : parts_) sums.add(tanks.template share<S>(part.tank), part.full);
     return sums;
   }
+  /// Once per hold(): the rates below, which then stay.
+  void flow(const Tanks<H>& tanks) {
+    mass_rate_ = {};
+    for (const auto& part : parts_)
+      mass_rate_.add(tanks.template share_rate<S>(part.tank), part.full);
+    for (std::size_t e = 0; e < elements_.size(); ++e)
+      element_rates_[e] = tanks.template share_rate<S>(elements_[e].tank) * elements_[e].full.mass;
+  }
   /// How fast mass() changes [kg/s], [kg m/s], [kg m^2/s].
-  LinkMass<S> mass_rate(const Tanks<H>& tanks) const {
-    LinkMass<S> sums;
-    for (const auto& part : parts_) sums.add(tanks.template share_rate<S>(part.tank), part.full);
-    return sums;
-  }
-  /// Of it the mass alone.
-  S point_rate(const Tanks<H>& tanks) const {
-    S sum{};
-    for (const auto& part : parts_) sum += tanks.template share_rate<S>(part.tank) * part.full.mass;
-    return sum;
-  }
+  const LinkMass<S>& mass_rate() const { return mass_rate_; }
   /// How fast an element loses mass [kg/s].
-  S element_rate(std::size_t e, const Tanks<H>& tanks) const {
-    return tanks.template share_rate<S>(elements_[e].tank) * elements_[e].full.mass;
-  }
+  const S& element_rate(std::size_t e) const { return element_rates_[e]; }
   /// @param elements  those of the link
   void put_elements(const Tanks<H>& tanks, std::vector<ElementNow<S>>& elements) const {
     for (std::size_t e = 0; e < elements.size(); ++e) {
@@ -184,6 +183,8 @@ class LinkDrain {
   LinkMass<S> fixed_;
   std::vector<Part<LinkMass<S>>> parts_;
   std::vector<Part<ElementNow<S>>> elements_;
+  LinkMass<S> mass_rate_;
+  std::vector<S> element_rates_;
 };
 
 }  // namespace twincraft::bsm::TWINCRAFT_KERNEL

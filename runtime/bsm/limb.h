@@ -47,6 +47,10 @@ class Limb {
     find_first_to_tell();
   }
 
+  /// Let masses change as the tanks do until the next hold().
+  void flow(const Tanks<H>& tanks) {
+    for (DrainingLink& draining : draining_) draining.drain.flow(tanks);
+  }
   /// Let masses be those that the tanks leave.
   void drain(const Tanks<H>& tanks) {
     for (const DrainingLink& draining : draining_) {
@@ -201,14 +205,14 @@ class Limb {
     return outside;
   }
   /// @param field  null: what is lost has no potential
-  Leaving<S> leaving(const Tanks<H>& tanks, const Field<S>* field) const {
+  Leaving<S> leaving(const Field<S>* field) const {
     Leaving<S> leaving;
     for (const DrainingLink& draining : draining_) {
       const MountMotion<S>& at = motions_[draining.link].at;
-      leaving.add(draining.drain.mass_rate(tanks), at);
+      leaving.add(draining.drain.mass_rate(), at);
       const std::vector<ElementNow<S>>& elements = links_[draining.link].elements;
       for (std::size_t e = 0; field != nullptr && e < elements.size(); ++e)
-        leaving.lift(draining.drain.element_rate(e, tanks), at.r_LB + at.dcm_WL * elements[e].r_EL,
+        leaving.lift(draining.drain.element_rate(e), at.r_LB + at.dcm_WL * elements[e].r_EL,
                      *field);
     }
     return leaving;

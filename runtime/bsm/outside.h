@@ -96,49 +96,54 @@ struct BooksOf {
   Vec<H> force_N, torque_PntC_N;
 };
 
-/// All mass of a vehicle, and what changes its books beside it.
+/// What changes the books of a vehicle beside its own efforts, summed in hub axes and turned into N
+/// at the end. Sums about C follow from those about B.
 template <class H>
 struct Tally {
-  Moment<H> moment;
-  Vec<H> momentum;  // [kg m/s]
+  Vec<H> r_CB, v_CB;
+  Pull<H> all;     // and momenta that leave
+  Vec<H> driving;  // [N] of it what no potential covers
+  H power{};       // [W] of all, and of leaving mass, with B at rest
+  H lost_mass{};   // [kg/s]
 
-  Vec<H> r_CB() const { return (H(1.0) / moment.mass) * moment.moment; }
-  Vec<H> v_CB() const { return (H(1.0) / moment.mass) * momentum; }
-
-  /// @pre momentum is set, as for what follows
-  void book_loads(const Outside<H>& loads, const Mat<H>& dcm_NB, const Vec<H>& v_BN_N,
-                  BooksOf<H>& books) const {
-    const Vec<H> force_N = book_outside(loads, dcm_NB, books);
-    books.power += loads.power + dot(force_N, v_BN_N);
+  void add_loads(const Outside<H>& loads, BooksOf<H>& books) {
+    add(loads);
+    driving += loads.pull.force;
+    books.power += loads.power;
   }
   /// @param gravity  differences from that at B
-  void book_gravity(const Outside<H>& gravity, const Mat<H>& dcm_NB, BooksOf<H>& books) const {
-    book_outside(gravity, dcm_NB, books);
+  void add_gravity(const Outside<H>& gravity, const Mat<H>& dcm_NB, BooksOf<H>& books) {
+    add(gravity);
+    books.force_N += dcm_NB * gravity.pull.force;
     books.power += gravity.turn_power;
   }
-  /// Sums about C follow from those about B. What C itself does drops out of H: neither sum of
-  /// m (r - r_C) nor of m (v - v_C) is anything.
-  void book_leaving(const Leaving<H>& leaving, const Mat<H>& dcm_NB, const Vec<H>& v_BN_N,
-                    BooksOf<H>& books) const {
+  /// What C itself does drops out of H: neither sum of m (r - r_C) nor of m (v - v_C) is anything.
+  void add_leaving(const Leaving<H>& leaving, BooksOf<H>& books) {
     const Moment<H>& lost = leaving.moment;
-    const Vec<H> r = r_CB(), v = v_CB(), p_N = dcm_NB * leaving.momentum;
-    const Vec<H> half_v = H(0.5) * v, half_v_N = H(0.5) * v_BN_N;
-    books.power += leaving.kinetic + dot(p_N + lost.mass * half_v_N, v_BN_N) + leaving.potential;
-    books.own_power += leaving.kinetic - dot(leaving.momentum - lost.mass * half_v, v);
-    books.force_N += p_N + lost.mass * v_BN_N;
-    books.torque_PntC_N += dcm_NB * (leaving.H_PntB_B - cross(r, leaving.momentum) -
-                                     cross(lost.moment - lost.mass * r, v));
+    all.force += leaving.momentum;
+    all.torque += leaving.H_PntB_B - cross(lost.moment - lost.mass * r_CB, v_CB);
+    driving += leaving.momentum;
+    power += leaving.kinetic + (H(0.5) * lost.mass) * dot(v_CB, v_CB);
+    lost_mass = lost.mass;
+    books.power += leaving.kinetic + leaving.potential;
+  }
+
+  /// What B's own velocity makes of loads and leaving mass.
+  void book_driving(const Mat<H>& dcm_NB, const Vec<H>& v_BN_N, BooksOf<H>& books) const {
+    const Vec<H> driving_N = dcm_NB * driving, lost_N = lost_mass * v_BN_N;
+    books.power += dot(driving_N + H(0.5) * lost_N, v_BN_N);
+    books.force_N += driving_N + lost_N;
+  }
+  void book_own(const Mat<H>& dcm_NB, BooksOf<H>& books) const {
+    books.own_power += power - dot(all.force, v_CB);
+    books.torque_PntC_N = dcm_NB * (all.torque - cross(r_CB, all.force));
   }
 
  private:
-  /// @return the force in N
-  Vec<H> book_outside(const Outside<H>& outside, const Mat<H>& dcm_NB, BooksOf<H>& books) const {
-    const Vec<H>& force = outside.pull.force;
-    const Vec<H> force_N = dcm_NB * force;
-    books.own_power += outside.power - dot(force, v_CB());
-    books.force_N += force_N;
-    books.torque_PntC_N += dcm_NB * (outside.pull.torque - cross(r_CB(), force));
-    return force_N;
+  void add(const Outside<H>& outside) {
+    all.force += outside.pull.force;
+    all.torque += outside.pull.torque;
+    power += outside.power;
   }
 };
 

@@ -41,6 +41,7 @@ class Point {
   }
 
   /// As of Limb.
+  void flow(const Tanks<H>& tanks) { draining_.flow(tanks); }
   void drain(const Tanks<H>& tanks) {
     if (!draining_.drains()) return;
     mass_ = draining_.mass(tanks).mass;
@@ -135,10 +136,10 @@ class Point {
     outside.add({mass_ * field.difference(r_), {}}, motion());
     return outside;
   }
-  Leaving<S> leaving(const Tanks<H>& tanks, const Field<S>* field) const {
+  Leaving<S> leaving(const Field<S>* field) const {
     Leaving<S> leaving;
     if (!draining_.drains()) return leaving;
-    const S rate = draining_.point_rate(tanks);
+    const S& rate = draining_.mass_rate().mass;
     leaving.add_point(rate, r_, v_);
     if (field != nullptr) leaving.lift(rate, r_, *field);
     return leaving;

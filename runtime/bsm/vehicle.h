@@ -73,7 +73,10 @@ class Vehicle {
         group.limb.hold(l, limbs_.plan_of(group, l, *plans_[p]), *held[p]);
       }
     });
-    if (plan_.tree.tanks > 0) drain(held[0]->inputs.since);
+    if (plan_.tree.tanks == 0) return;
+    draining_.flow(tanks_);
+    limbs_.for_each([this](auto& group) { group.limb.flow(tanks_); });
+    drain(held[0]->inputs.since);
   }
 
   void derivative(Number<H> time, const Number<H>* state, Number<H>* rate) {
