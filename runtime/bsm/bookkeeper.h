@@ -3,6 +3,8 @@
 // Tested by tests/runtime/books_test.cpp.
 #pragma once
 
+#include <type_traits>
+
 #include "runtime/bsm/vehicle.h"
 
 namespace twincraft::bsm::TWINCRAFT_KERNEL {
@@ -133,13 +135,22 @@ class Bookkeeper {
   /// @param of  what the limbs of one group say, side by side  @param sum  takes it of all limbs
   template <class Of, class Sum>
   void add_limbs(const Of& of, Sum& sum) const {
-    vehicle_.limbs_.for_each([&](auto& group) {
+    add_particles(of, sum);
+    vehicle_.limbs_.for_each_tree([&](auto& group) {
       const auto limbs = of(group.limb);
       if (group.is_full)  // asked once, not for every number
         sum += total<true>(limbs);
       else
         sum += total<false>(limbs);
     });
+  }
+  /// Of all groups in lanes first.
+  template <class Of, class Sum>
+  void add_particles(const Of& of, Sum& sum) const {
+    if (!vehicle_.limbs_.has_particles()) return;
+    std::remove_cvref_t<std::invoke_result_t<const Of&, Point<H, S>&>> limbs{};
+    vehicle_.limbs_.for_each_particle([&](auto& group) { limbs += of(group.limb); });
+    sum += total<true>(limbs);
   }
   // See gathered().
   template <bool kIsFull>

@@ -19,6 +19,7 @@ class ChainLimb {
       : chain_(chains_of(lanes), layout) {}
 
   // As of Limb.
+  void flow(const Tanks<H>&) {}
   void drain(const Tanks<H>&) {}
   void hold(std::size_t l, const LimbPlan& limb, const HeldInputsIn<Number<H>>& held) {
     chain_.hold(l, *limb.chains.data(), held);
@@ -44,7 +45,7 @@ class ChainLimb {
     chain_.add_gravity(hub_, outside);
     return outside;
   }
-  Leaving<S> leaving(const Tanks<H>&, const Field<S>*) const { return {}; }
+  Leaving<S> leaving(const Field<S>*) const { return {}; }
 
  private:
   static std::array<const ChainPlan*, kLanes<S>> chains_of(std::span<const LimbPlan* const> lanes) {

@@ -149,6 +149,12 @@ class LinkDrain {
     for (const auto& part : parts_) sums.add(tanks.template share<S>(part.tank), part.full);
     return sums;
   }
+  /// Of it the mass alone [kg].
+  S point_mass(const Tanks<H>& tanks) const {
+    S sum = fixed_.mass;
+    for (const auto& part : parts_) sum += tanks.template share<S>(part.tank) * part.full.mass;
+    return sum;
+  }
   /// Once per hold(): the rates below, which then stay.
   void flow(const Tanks<H>& tanks) {
     mass_rate_ = {};

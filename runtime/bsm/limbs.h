@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "runtime/bsm/bob.h"
 #include "runtime/bsm/chain_limb.h"
 #include "runtime/bsm/limb.h"
 #include "runtime/bsm/point.h"
@@ -44,16 +45,35 @@ class Limbs {
 
   template <class Each>
   void for_each(const Each& each) {
+    for_each_particle(each);
+    for_each_tree(each);
+  }
+  template <class Each>
+  void for_each(const Each& each) const {
+    for_each_particle(each);
+    for_each_tree(each);
+  }
+  template <class Each>
+  void for_each_particle(const Each& each) {
     for (auto& group : points_) each(group);
+    for (auto& group : bobs_) each(group);
+  }
+  template <class Each>
+  void for_each_particle(const Each& each) const {
+    for (const auto& group : points_) each(group);
+    for (const auto& group : bobs_) each(group);
+  }
+  template <class Each>
+  void for_each_tree(const Each& each) {
     for (auto& group : chains_) each(group);
     for (auto& group : trees_) each(group);
   }
   template <class Each>
-  void for_each(const Each& each) const {
-    for (const auto& group : points_) each(group);
+  void for_each_tree(const Each& each) const {
     for (const auto& group : chains_) each(group);
     for (const auto& group : trees_) each(group);
   }
+  bool has_particles() const { return !points_.empty() || !bobs_.empty(); }
   /// The limb in lane l of S.
   template <class Of>
   static const LimbPlan& plan_of(const Group<Of>& group, std::size_t l, const Plan& plan) {
@@ -65,6 +85,7 @@ class Limbs {
     bool is_point = false;
     std::size_t group = 0, link = 0, lane = 0;
   };
+  /// But of bobs and chains, which no force that follows their motion acts on.
   /// @param at  takes a link of the plan and its place
   template <class At>
   void for_each_place(const Plan& plan, const At& at) const {
@@ -89,12 +110,20 @@ class Limbs {
       plan_of_lanes[l] = plans[l / kLimbs<H, S>];
       of_lanes[l] = &plan_of_lanes[l]->limbs.data()[limbs[l % kLimbs<H, S>]];
     }
-    if (of_lanes[0]->is_point)
-      points_.push_back({limbs, is_full, Point<H, S>(of_lanes, plan_of_lanes, layout)});
-    else if (of_lanes[0]->is_chain())
-      chains_.push_back({limbs, is_full, ChainLimb<H, S>(of_lanes, layout)});
-    else
-      trees_.push_back({limbs, is_full, Limb<H, S>(of_lanes, plan_of_lanes, layout)});
+    switch (of_lanes[0]->kind) {
+      case LimbKind::kPoint:
+        points_.push_back({limbs, is_full, Point<H, S>(of_lanes, plan_of_lanes, is_full, layout)});
+        return;
+      case LimbKind::kBob:
+        bobs_.push_back({limbs, is_full, Bob<H, S>(of_lanes, plan_of_lanes, is_full, layout)});
+        return;
+      case LimbKind::kChain:
+        chains_.push_back({limbs, is_full, ChainLimb<H, S>(of_lanes, layout)});
+        return;
+      case LimbKind::kTree:
+        trees_.push_back({limbs, is_full, Limb<H, S>(of_lanes, plan_of_lanes, layout)});
+        return;
+    }
   }
 
   bool is_grouped(std::size_t k) const {
@@ -118,6 +147,7 @@ class Limbs {
   }
 
   std::vector<Group<Point<H, S>>> points_;
+  std::vector<Group<Bob<H, S>>> bobs_;
   std::vector<Group<ChainLimb<H, S>>> chains_;
   std::vector<Group<Limb<H, S>>> trees_;
 };

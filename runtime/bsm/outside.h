@@ -22,6 +22,11 @@ struct Outside {
     pull.torque += on_link.torque + cross(link.r_LB, on_link.force);
     power += dot(on_link.force, link.v_LB) + dot(on_link.torque, link.omega);
   }
+  /// On a particle. @param r, v  of it
+  void add_at(const Vec<S>& force, const Vec<S>& r, const Vec<S>& v) {
+    pull.add(force, r);
+    power += dot(force, v);
+  }
   void add_turn(const Vec<S>& torque, const MountMotion<S>& link) {
     const S works = dot(torque, link.omega);
     pull.torque += torque;

@@ -52,7 +52,8 @@ struct Candidates {
   const Tree& tree;
   const Assembly& assembly;
   GravityLaw law;
-  std::vector<bool> is_excluded;  // loaded, or its angle decides about another joint
+  std::vector<bool> is_loaded;
+  std::vector<bool> decides;  // its angle decides about another joint
 };
 
 /// How many links from `first` on form an unbranched tail of the tree; zero: none do.
@@ -68,7 +69,7 @@ std::size_t tail_length(const Tree& tree, std::size_t first) {
 bool may_be_planar(const Candidates& of, std::size_t i) {
   const LinkConstants& link = of.tree.links[i];
   return link.kind == JointKind::kHinge && !link.drains && link.damped_by_cosine_of < 0 &&
-         !of.is_excluded[i] && rotors_on(of.tree, i).empty();
+         !of.is_loaded[i] && !of.decides[i] && rotors_on(of.tree, i).empty();
 }
 
 /// Link i of a chain in chain axes. @param dcm_CL  link to chain axes at angle zero
@@ -145,7 +146,7 @@ class LimbBuilder {
         const int by = of_.tree.links[index(link.link)].damped_by_cosine_of;
         if (by >= 0) link.damped_by_cosine_of = place_of(by);
       }
-      limb.is_point = paths == ChainPath::kPlanar && is_point(limb);
+      if (paths == ChainPath::kPlanar) limb.kind = kind_of(limb);
     }
     return std::move(limbs_);
   }
@@ -164,14 +165,42 @@ class LimbBuilder {
   }
   int place_of(int link) const { return link == 0 ? -1 : place_in_limb_[index(link)]; }
 
-  bool is_point(const LimbPlan& limb) const {
-    if (limb.links.size() != 1 || !limb.chains.empty() || of_.law == GravityLaw::kBodyGradient) {
-      return false;
-    }
-    const LinkPlan& only = limb.links.front();
+  LimbKind kind_of(const LimbPlan& limb) const {
+    if (limb.links.empty()) return LimbKind::kChain;
+    if (!limb.chains.empty() || of_.law == GravityLaw::kBodyGradient) return LimbKind::kTree;
+    for (const LinkPlan& link : limb.links)
+      if (!link.rotors.empty()) return LimbKind::kTree;
+    if (limb.links.size() == 1 && is_point(limb.links[0])) return LimbKind::kPoint;
+    if (limb.links.size() == 2 && is_bob(limb.links[0], limb.links[1])) return LimbKind::kBob;
+    return LimbKind::kTree;
+  }
+
+  bool is_point(const LinkPlan& only) const {
     const LinkConstants& link = of_.tree.links[index(only.link)];
-    return only.slides && only.rotors.empty() && only.damped_by_cosine_of < 0 &&
-           link.first_moment.isZero(0.0) && link.J_L.isZero(0.0);
+    return only.slides && only.damped_by_cosine_of < 0 && link.first_moment.isZero(0.0) &&
+           link.J_L.isZero(0.0);
+  }
+
+  bool is_bob(const LinkPlan& inner, const LinkPlan& outer) const {
+    const LinkConstants& phi = of_.tree.links[index(inner.link)];
+    const LinkConstants& theta = of_.tree.links[index(outer.link)];
+    if (outer.parent != 0 || inner.slides || outer.slides || inner.damped_by_cosine_of != 1 ||
+        outer.damped_by_cosine_of >= 0 || of_.is_loaded[index(inner.link)] ||
+        of_.is_loaded[index(outer.link)] || !theta.r_HP_P.isZero(0.0) ||
+        !of_.assembly.links[index(inner.link)].elements.empty() ||
+        !is_at_one_point(of_.assembly.links[index(outer.link)].elements))
+      return false;
+    const Vector3d rod = (theta.turn_fixed + theta.turn_cos) * theta.first_moment.normalized();
+    const Matrix3d dcm_BI = phi.turn_fixed + phi.turn_cos;
+    const Vector3d inner_axis = dcm_BI.transpose() * phi.axis_P;
+    return std::abs(inner_axis.dot(theta.axis_P)) < kZero &&
+           std::abs(inner_axis.dot(rod)) < kZero && std::abs(theta.axis_P.dot(rod)) < kZero;
+  }
+  static bool is_at_one_point(const std::vector<MassElement>& elements) {
+    return !elements.empty() && std::ranges::all_of(elements, [&](const MassElement& e) {
+      return e.mass > 0.0 && e.r_EL_L == elements.front().r_EL_L && !e.r_EL_L.isZero(0.0) &&
+             e.I_PntE_L.isZero(0.0);
+    });
   }
 
   void add_link(std::size_t i) {
@@ -209,7 +238,7 @@ bool are_alike(const LimbPlan& a, const LimbPlan& b) {
                                               return p.elements.size() == q.elements.size();
                                             });
   };
-  return a.is_point == b.is_point &&
+  return a.kind == b.kind &&
          std::equal(a.links.begin(), a.links.end(), b.links.begin(), b.links.end(), like_links) &&
          std::equal(a.chains.begin(), a.chains.end(), b.chains.begin(), b.chains.end(),
                     like_chains);
@@ -270,17 +299,18 @@ Plan make_plan(const Assembly& assembly, AttitudeChart chart, const Gravity& gra
   plan.mu = gravity.mu;
   plan.law = gravity.bsm;
   plan.forces = std::move(forces);
-  std::vector<bool> is_excluded(assembly.links.size(), false);
-  for (const Load& load : loads) is_excluded[static_cast<std::size_t>(load.link)] = true;
-  for (const int link : links_of(plan.forces)) is_excluded[static_cast<std::size_t>(link)] = true;
+  std::vector<bool> is_loaded(assembly.links.size(), false), decides = is_loaded;
+  for (const Load& load : loads) is_loaded[static_cast<std::size_t>(load.link)] = true;
+  for (const int link : links_of(plan.forces)) is_loaded[static_cast<std::size_t>(link)] = true;
   for (const LinkConstants& link : plan.tree.links) {
     if (link.damped_by_cosine_of >= 0) {
-      is_excluded[static_cast<std::size_t>(link.damped_by_cosine_of)] = true;
+      decides[static_cast<std::size_t>(link.damped_by_cosine_of)] = true;
     }
   }
   plan.hub.elements = elements_of(assembly.links.front(), plan.law);
   plan.hub.rotors = rotors_on(plan.tree, 0);
-  const Candidates candidates{plan.tree, assembly, plan.law, std::move(is_excluded)};
+  const Candidates candidates{plan.tree, assembly, plan.law, std::move(is_loaded),
+                              std::move(decides)};
   plan.limbs = LimbBuilder(candidates).build(paths);
   return plan;
 }

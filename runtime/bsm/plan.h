@@ -44,11 +44,18 @@ struct ChainPlan {
   std::vector<PlanarLinkPlan> links;
 };
 
+/// Whose steps of the recursion are written out.
+enum class LimbKind {
+  kTree,   // any
+  kChain,  // no links but those of one chain, on the hub
+  kPoint,  // one link: a point mass on a slide
+  kBob,    // a point mass at the end of two crossed hinges, that nothing acts on but gravity
+};
+
 struct LimbPlan {
   std::vector<LinkPlan> links;  // parents before children
   std::vector<ChainPlan> chains;
-  bool is_point = false;                           // one link: a point mass on a slide
-  bool is_chain() const { return links.empty(); }  // one chain, on the hub
+  LimbKind kind = LimbKind::kTree;
 };
 
 /// The same structure, whatever the constants: their limbs can go side by side.
@@ -75,7 +82,7 @@ struct Plan {
 bool are_alike(const Plan& a, const Plan& b);
 
 /// @param loads, forces  what may act on a link, which excludes it from the planar path
-/// @param paths  kGeneral: sliding points too take the way that serves any tree
+/// @param paths  kGeneral: points and bobs too take the way that serves any tree
 Plan make_plan(const Assembly& assembly, AttitudeChart chart, const Gravity& gravity,
                const std::vector<Load>& loads, ChainPath paths = ChainPath::kPlanar,
                Forces forces = {});

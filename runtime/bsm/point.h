@@ -7,48 +7,41 @@
 
 #include <span>
 
-#include "runtime/bsm/draining.h"
-#include "runtime/bsm/law.h"
-#include "runtime/bsm/outside.h"
-#include "runtime/bsm/parts.h"
-#include "runtime/bsm/plan.h"
+#include "runtime/bsm/particle.h"
 
 namespace twincraft::bsm::TWINCRAFT_KERNEL {
 
 template <class H, class S>
 requires KernelScalars<H, S>
-class Point {
+class Point : public Particle<H, S> {
  public:
   using Lanes = std::span<const LimbPlan* const>;  // one per lane of S, alike
   using Plans = std::span<const Plan* const>;      // whose limbs they are
 
-  Point(Lanes lanes, Plans plans, const Layout& layout) {
+  /// @param is_full  else lanes of a second limb are idle
+  Point(Lanes lanes, Plans plans, bool is_full, const Layout& layout) {
     for (std::size_t l = 0; l < lanes.size(); ++l) {
       const LinkPlan& from = *lanes[l]->links.data();
       const bsm::LinkConstants& constants = plans[l]->tree.links.data()[from.link];
       set_lane(r_HB_, l, constants.r_HP_P);
       set_lane(axis_, l, constants.axis_P);
-      set_lane(dcm_BL_, l, constants.turn_fixed);
-      set_lane(stiffness_, l, constants.stiffness);
-      set_lane(damping_, l, constants.damping);
       set_lane(rest_, l, constants.rest);
       position_[l % kLimbs<H, S>] = layout.position(from.link);
       rate_[l % kLimbs<H, S>] = layout.rate(from.link);
-      set_lane(mass_, l, constants.mass);
-      draining_.set(l, *plans[l], from);
+      if (!is_full && l % kLimbs < H, S >> 0) {
+        this->set_idle(l);
+        continue;
+      }
+      set_lane(dcm_BL_, l, constants.turn_fixed);
+      set_lane(stiffness_, l, constants.stiffness);
+      set_lane(damping_, l, constants.damping);
+      this->set_mass(l, *plans[l], from);
     }
-    inverse_mass_ = S(1.0) / mass_;
-  }
-
-  /// As of Limb.
-  void flow(const Tanks<H>& tanks) { draining_.flow(tanks); }
-  void drain(const Tanks<H>& tanks) {
-    if (!draining_.drains()) return;
-    mass_ = draining_.mass(tanks).mass;
-    inverse_mass_ = S(1.0) / mass_;
+    this->put_mass(mass_);
   }
 
   void hold(std::size_t l, const LimbPlan& limb, const HeldInputsIn<Number<H>>& held) {
+    if (this->is_idle(l)) return;
     const auto link = static_cast<std::size_t>(limb.links.data()->link);
     set_lane(effort_, l, held.effort.data()[link - 1]);
     set_lane(force_L_, l, held.force_L.data()[link]);
@@ -76,9 +69,7 @@ class Point {
     u_ = effort_ - stiffness_ * (q - rest_) - damping_ * q_dot;
   }
 
-  Moment<S> moment() const { return {mass_, mass_ * r_}; }
-
-  Law<S> contribute(const Field<S>* field, const Vec<S>* r_CB) {
+  void contribute(const Field<S>* field, const Vec<S>* r_CB, Law<S>& law) {
     Vec<S> pull = dcm_BL_ * force_L_;
     Vec<S> torque = dcm_BL_ * torque_L_;
     if (is_watched_) {
@@ -98,16 +89,16 @@ class Point {
     const Vec<S> ms = mass_ * s, mr = mass_ * r, e = cross(r, s), me = mass_ * e;
     const S mr2 = dot(mr, r);
     const Vec<S> f = f0 + gain_ * ms;
-    return {{mr2 - mr.x * r.x - me.x * e.x, mr2 - mr.y * r.y - me.y * e.y,
-             mr2 - mr.z * r.z - me.z * e.z, -(mr.x * r.y) - me.x * e.y, -(mr.x * r.z) - me.x * e.z,
-             -(mr.y * r.z) - me.y * e.z},
-            {mass_ - ms.x * s.x, mass_ - ms.y * s.y, mass_ - ms.z * s.z, -(ms.x * s.y),
-             -(ms.x * s.z), -(ms.y * s.z)},
-            {{-(me.x * s.x), mr.z - me.y * s.x, -mr.y - me.z * s.x},
-             {-mr.z - me.x * s.y, -(me.y * s.y), mr.x - me.z * s.y},
-             {mr.y - me.x * s.z, -mr.x - me.y * s.z, -(me.z * s.z)}},
-            cross(r, f) - torque,
-            f};
+    law.J += {mr2 - mr.x * r.x - me.x * e.x, mr2 - mr.y * r.y - me.y * e.y,
+              mr2 - mr.z * r.z - me.z * e.z, -(mr.x * r.y) - me.x * e.y,
+              -(mr.x * r.z) - me.x * e.z,    -(mr.y * r.z) - me.y * e.z};
+    law.M += {mass_ - ms.x * s.x, mass_ - ms.y * s.y, mass_ - ms.z * s.z,
+              -(ms.x * s.y),      -(ms.x * s.z),      -(ms.y * s.z)};
+    law.H += {{-(me.x * s.x), mr.z - me.y * s.x, -mr.y - me.z * s.x},
+              {-mr.z - me.x * s.y, -(me.y * s.y), mr.x - me.z * s.y},
+              {mr.y - me.x * s.z, -mr.x - me.y * s.z, -(me.z * s.z)}};
+    law.n0 += cross(r, f) - torque;
+    law.f0 += f;
   }
 
   void recover(const Vec<S>& omega_dot_B, const Vec<S>& a_B, Number<H>* rate) const {
@@ -122,7 +113,6 @@ class Point {
   void trace(const Number<H>* state, const Vec<S>& omega) {
     set_velocity(gather<H, S>(state, rate_), omega);
   }
-  Vec<S> momentum() const { return mass_ * v_; }
   Outside<S> loads(const Vec<S>* r_CB) const {
     Pull<S> sum{dcm_BL_ * force_L_, dcm_BL_ * torque_L_};
     if (is_watched_) sum.add(pushed_);
@@ -131,21 +121,14 @@ class Point {
     outside.add(sum, motion());
     return outside;
   }
-  Outside<S> gravity(const Field<S>& field) const {
-    Outside<S> outside;
-    outside.add({mass_ * field.difference(r_), {}}, motion());
-    return outside;
-  }
-  Leaving<S> leaving(const Field<S>* field) const {
-    Leaving<S> leaving;
-    if (!draining_.drains()) return leaving;
-    const S& rate = draining_.mass_rate().mass;
-    leaving.add_point(rate, r_, v_);
-    if (field != nullptr) leaving.lift(rate, r_, *field);
-    return leaving;
-  }
 
  private:
+  using Base = Particle<H, S>;
+  using Base::inverse_mass_;
+  using Base::mass_;
+  using Base::r_;
+  using Base::v_;
+
   void set_velocity(const S& q_dot, const Vec<S>& omega) {
     omega_ = omega;
     v_ = cross(omega, r_) + q_dot * axis_;
@@ -154,13 +137,12 @@ class Point {
 
   Vec<S> r_HB_, axis_;
   Mat<S> dcm_BL_;
-  S stiffness_{}, damping_{}, rest_{}, mass_{}, inverse_mass_{}, effort_{};
-  LinkDrain<H, S> draining_;
+  S stiffness_{}, damping_{}, rest_{}, effort_{};
   Vec<S> force_L_, torque_L_, force_at_center_L_;
   Places<H, S> position_{}, rate_{};
-  Vec<S> r_, a_bias_;
+  Vec<S> a_bias_;
   bool is_watched_ = false;
-  Vec<S> omega_, v_;
+  Vec<S> omega_;
   Pull<S> pushed_;
   S u_{}, gain_{};
 };

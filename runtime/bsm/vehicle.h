@@ -32,6 +32,7 @@ class Vehicle {
     rotors_.resize(plan_.hub.rotors.size());
     for (std::size_t l = 0; l < plans.size(); ++l) set_hub(l, *plans[l]);
     set_hub_matrices();
+    hub_ = hub_alone_;
     limbs_.build(plans, layout_);
     is_rigid_ = plan_.limbs.empty() && !plan_.tree.links.data()->drains;
     if (is_rigid_) {
@@ -263,7 +264,6 @@ class Vehicle {
     hub_alone_.J = mass_.J;
     hub_alone_.H = cross_matrix(mass_.moment);
     hub_alone_.M = Sym<H>::isotropic(mass_.mass);
-    hub_ = hub_alone_;
   }
 
   void begin_hub_law(const Vec<H>& omega, const Vec<H>& spin) {
@@ -324,20 +324,21 @@ class Vehicle {
   }
 
   void add_limbs(const Field<H>* field, const Vec<H>* r_CB) {
-    if (field == nullptr && r_CB == nullptr) {
-      limbs_.for_each(
-          [this](auto& group) { add(group.limb.contribute(nullptr, nullptr), group.is_full); });
-      return;
-    }
+    if (field == nullptr && r_CB == nullptr) return add_limbs_in(nullptr, nullptr);
     Field<S> field_S;
     Vec<S> r_CB_S;
     if (field != nullptr) field_S = spread(*field);
     if (r_CB != nullptr) r_CB_S = spread(*r_CB);
-    limbs_.for_each([&](auto& group) {
-      add(group.limb.contribute(field == nullptr ? nullptr : &field_S,
-                                r_CB == nullptr ? nullptr : &r_CB_S),
-          group.is_full);
-    });
+    add_limbs_in(field == nullptr ? nullptr : &field_S, r_CB == nullptr ? nullptr : &r_CB_S);
+  }
+  void add_limbs_in(const Field<S>* field, const Vec<S>* r_CB) {
+    if (limbs_.has_particles()) {
+      Law<S> sum;
+      limbs_.for_each_particle([&](auto& group) { group.limb.contribute(field, r_CB, sum); });
+      add(sum, true);
+    }
+    limbs_.for_each_tree(
+        [&](auto& group) { add(group.limb.contribute(field, r_CB), group.is_full); });
   }
 
   void add(const Law<S>& law, bool is_full) {

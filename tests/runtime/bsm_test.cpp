@@ -253,6 +253,83 @@ TEST(Chain, ServesOnlyTailsThatAreBalancedAboutTheirPlane) {
   EXPECT_EQ(planar_links([](Link& link) { link.parent = 1; }), 1u + 3u + 3u);
 }
 
+/// A point mass at the end of two crossed hinges, in any attitude.
+void add_bob(std::mt19937_64& random, Assembly& assembly) {
+  std::uniform_real_distribution<double> uniform(0.5, 1.5);
+  const auto hinge_about = [&](const Vector3d& axis) {
+    Joint hinge;
+    hinge.axis_L = axis;
+    hinge.stiffness = 10.0 * uniform(random);
+    hinge.damping = uniform(random);
+    hinge.rest = 0.1 * uniform(random);
+    hinge.effort = Schedule::constant(uniform(random));
+    return hinge;
+  };
+  const int phi = static_cast<int>(assembly.links.size());
+  Link inner{"phi", 0, hinge_about(Vector3d::UnitZ()), {}},
+      outer{"bob", phi, hinge_about(Vector3d::UnitY()), {}};
+  const Vector3d turn = test::random_vector(random, 1.0);
+  inner.joint.dcm_PL0 =
+      Quaterniond(1.0, turn.x(), turn.y(), turn.z()).normalized().toRotationMatrix();
+  inner.joint.r_HP_P = test::random_vector(random, 1.0);
+  inner.joint.damped_by_cosine_of = phi + 1;
+  outer.elements = {
+      {"bob", uniform(random), Vector3d(uniform(random), 0.0, 0.0), Matrix3d::Zero()}};
+  assembly.links.push_back(inner);
+  assembly.links.push_back(outer);
+}
+
+std::size_t bobs_in(const bsm::Plan& plan) {
+  return static_cast<std::size_t>(
+      std::ranges::count(plan.limbs, bsm::LimbKind::kBob, &bsm::LimbPlan::kind));
+}
+
+TEST(Bob, EqualsTheGeneralRecursion) {
+  std::mt19937_64 random(37);
+  const Gravity near{1.0e4, GravityLaw::kBodyCom, GravityLaw::kNone};
+  for (const Gravity& gravity : {Gravity{}, near}) {
+    for (std::size_t bobs = 1; bobs <= 3; ++bobs) {  // the last of three has a lane beside it idle
+      for (const bsm::InstructionSet set : bsm::instruction_sets()) {
+        Assembly assembly = test::random_assembly(random, 2, 1);
+        for (std::size_t k = 0; k < bobs; ++k) add_bob(random, assembly);
+        const OracleState state = test::random_state(random, assembly);
+        KernelOf written_out(assembly, ChainPath::kPlanar, gravity, set);
+        KernelOf general(assembly, ChainPath::kGeneral, gravity, set);
+        ASSERT_EQ(bobs_in(written_out.plan()), bobs);
+        ASSERT_EQ(bobs_in(general.plan()), 0u);
+        const bsm::HeldInputs held = inputs_of(assembly);
+        const Vector3d r_BN(30.0, -40.0, 20.0);
+        const Eigen::VectorXd a = written_out.accelerations(state, held, r_BN);
+        const Eigen::VectorXd b = general.accelerations(state, held, r_BN);
+        EXPECT_LT((a - b).norm(), 1e-12 * b.norm()) << bobs << ", " << bsm::name_of(set);
+      }
+    }
+  }
+}
+
+TEST(Bob, IsAPointOnCrossedHingesThatNothingActsOn) {
+  std::mt19937_64 random(41);
+  const auto bobs = [&random](auto change, const std::vector<Load>& loads = {}) {
+    Assembly assembly = test::random_assembly(random, 0, 0);
+    add_bob(random, assembly);
+    change(assembly.links[1], assembly.links[2]);
+    return bobs_in(bsm::make_plan(assembly, AttitudeChart::kMrp, {}, loads));
+  };
+  const auto as_it_is = [](Link&, Link&) {};
+  EXPECT_EQ(bobs(as_it_is), 1u);
+  for (const int link : {1, 2}) EXPECT_EQ(bobs(as_it_is, {{"push", link, {}, {}, {}}}), 0u);
+  EXPECT_EQ(bobs([](Link&, Link& bob) { bob.elements[0].I_PntE_L(1, 1) = 1e-3; }), 0u);
+  EXPECT_EQ(bobs([](Link&, Link& bob) { bob.elements[0].r_EL_L.y() = 1e-6; }), 0u);
+  EXPECT_EQ(bobs([](Link&, Link& bob) { bob.elements[0].r_EL_L.z() = 1e-6; }), 0u);
+  EXPECT_EQ(bobs([](Link&, Link& bob) { bob.elements[0].r_EL_L.setZero(); }), 0u);
+  EXPECT_EQ(bobs([](Link&, Link& bob) { bob.joint.r_HP_P.x() = 1e-6; }), 0u);
+  EXPECT_EQ(bobs([](Link&, Link& bob) { bob.joint.kind = JointKind::kSlide; }), 0u);
+  EXPECT_EQ(
+      bobs([](Link&, Link& bob) { bob.joint.axis_L = Vector3d(0.0, 1.0, 1e-6).normalized(); }), 0u);
+  EXPECT_EQ(bobs([](Link& phi, Link&) { phi.joint.damped_by_cosine_of = -1; }), 0u);
+  EXPECT_EQ(bobs([](Link& phi, Link& bob) { phi.elements = bob.elements; }), 0u);
+}
+
 TEST(BsmEngine, TakesNothingFromTheHeapInADerivative) {
   std::mt19937_64 random(13);
   Model model;
