@@ -9,27 +9,42 @@
 namespace twincraft::api {
 namespace {
 
-/// @param request  makes the request; it runs where an exception is caught
-template <class Request>
-tc_status load(const tc_load_options* options, tc_model** out, const Request& request) noexcept {
+/// @param compile  makes the model; it runs where an exception is caught
+template <class Compile>
+tc_status make(tc_model** out, const Compile& compile) noexcept {
   if (out == nullptr) return TC_USAGE;
   *out = new (std::nothrow) tc_model;
   if (*out == nullptr) return TC_MEMORY;
   tc_model& handle = **out;
   return attempt(handle.parts.error, [&] {
-    check_struct(options);
-    CompileRequest wanted = request();
-    if (options != nullptr && options->set_count > 0)
-      wanted.overrides.assign(options->set, options->set + options->set_count);
     Diagnostics diagnostics;
     try {
-      handle.model = CompiledModel::load(wanted, diagnostics);
+      handle.model = compile(diagnostics);
     } catch (...) {
       handle.diagnostics = to_json(diagnostics);
       throw;
     }
     handle.diagnostics = to_json(diagnostics);
   });
+}
+
+template <class Request>
+tc_status load(const tc_load_options* options, tc_model** out, const Request& request) noexcept {
+  return make(out, [&](Diagnostics& diagnostics) {
+    check_struct(options);
+    CompileRequest wanted = request();
+    if (options != nullptr && options->set_count > 0)
+      wanted.overrides.assign(options->set, options->set + options->set_count);
+    return CompiledModel::load(wanted, diagnostics);
+  });
+}
+
+std::shared_ptr<const CompiledModel> member_of(const CompiledModel& model, std::size_t member,
+                                               Diagnostics& diagnostics) {
+  const CampaignPlan& plan = campaign_of(model);
+  if (member >= plan.members)
+    refuse(fmt::format("there is no member {}: {} of them count from 0", member, plan.members));
+  return model.member(member, diagnostics);
 }
 
 const SignalList& list_of(const tc_model& handle, tc_signals which) {
@@ -70,6 +85,13 @@ tc_status tc_model_loads(const char* text, size_t length, const tc_load_options*
   return load(options, model, [&] {
     const char* name = options != nullptr && options->name != nullptr ? options->name : "<string>";
     return CompileRequest{name, {}, std::string(text, length)};
+  });
+}
+
+tc_status tc_model_member(const tc_model* model, size_t member, tc_model** drawn) {
+  if (model == nullptr || !model->is_whole()) return TC_USAGE;
+  return make(drawn, [&](Diagnostics& diagnostics) {
+    return member_of(*model->model, member, diagnostics);
   });
 }
 

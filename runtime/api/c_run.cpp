@@ -1,54 +1,17 @@
 // The C interface: runs, proofs and attributions. See include/twincraft.h.
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <atomic>
-#include <chrono>
-#include <future>
-#include <optional>
 #include <thread>
 
-#include "runtime/api/handles.h"
+#include "runtime/api/run_handle.h"
 #include "runtime/compare/verdict.h"
 #include "runtime/delivery/attribution_run.h"
 #include "runtime/delivery/spec_proof.h"
-#include "runtime/delivery/spec_run.h"
 #include "runtime/report/printed_time.h"
-
-/// One of the three, and the texts that were asked for.
-struct tc_run {
-  std::shared_ptr<const twincraft::api::CompiledModel> model;
-  std::optional<twincraft::SpecRun> run;
-  std::string verdict, text, json;
-  bool passes = false;
-  twincraft::api::HandleParts parts;
-
-  bool is_whole() const { return !verdict.empty(); }
-};
 
 namespace twincraft::api {
 namespace {
 
 constexpr tc_run_options kDefaults{sizeof(tc_run_options), TC_BOTH, 0, 0, nullptr, nullptr};
-
-int cores() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
-
-/// Do `work(stop)`, which ends early when `stop` becomes true, and meanwhile ask the poll: from
-/// this thread, which called the library.
-template <class Work>
-void attend(const tc_run_options& wanted, const Work& work) {
-  check_struct(&wanted);
-  std::atomic<bool> stop = false;
-  if (wanted.poll == nullptr) return work(stop);
-  std::future<void> done = std::async(std::launch::async, [&] { work(stop); });
-  while (done.wait_for(std::chrono::milliseconds(20)) != std::future_status::ready)
-    if (!stop && wanted.poll(wanted.context) != 0) stop = true;
-  done.get();
-}
-
-[[noreturn]] void end_interrupted() { throw Fault(TC_INTERRUPTED, "interrupted"); }
-
-int jobs_of(const tc_run_options& wanted) { return wanted.jobs > 0 ? wanted.jobs : cores(); }
 
 void fly_into(tc_run& handle, const tc_run_options& wanted) {
   attend(wanted, [&](const std::atomic<bool>& stop) {
@@ -57,7 +20,7 @@ void fly_into(tc_run& handle, const tc_run_options& wanted) {
     request.options.mujoco = wanted.engines != TC_BSM_ALONE;
     request.options.trials = wanted.trials;
     request.options.stop = &stop;
-    request.jobs = jobs_of(wanted);
+    request.jobs = jobs_of(wanted.jobs);
     request.keeps_results = true;
     handle.run = fly({handle.model->spec(), handle.model->bundle()}, request);
     if (handle.run->empty()) end_interrupted();
@@ -85,7 +48,7 @@ void attribute_into(tc_run& handle, const tc_run_options& wanted) {
     AttributionRequest request;
     request.options.trials = 0;
     request.options.stop = &stop;
-    request.jobs = jobs_of(wanted);
+    request.jobs = jobs_of(wanted.jobs);
     const AttributionRun run = attribute({handle.model->spec(), handle.model->bundle()}, request);
     if (stop) end_interrupted();
     handle.text = run.text() + run.complaint();
@@ -95,17 +58,12 @@ void attribute_into(tc_run& handle, const tc_run_options& wanted) {
   });
 }
 
-template <class Body>
-tc_status make(const tc_model* model, tc_run** run, const Body& body) noexcept {
-  if (model == nullptr || !model->is_whole() || run == nullptr) return TC_USAGE;
-  *run = new (std::nothrow) tc_run;
-  if (*run == nullptr) return TC_MEMORY;
-  tc_run& handle = **run;
-  handle.model = model->model;
-  return attempt(handle.parts.error, [&] { body(handle); });
+}  // namespace
+
+int jobs_of(int wanted) {
+  return wanted > 0 ? wanted : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
-}  // namespace
 }  // namespace twincraft::api
 
 using namespace twincraft;
@@ -114,18 +72,19 @@ using namespace twincraft::api;
 extern "C" {
 
 tc_status tc_model_run(const tc_model* model, const tc_run_options* options, tc_run** run) {
-  return make(model, run, [options](tc_run& h) { fly_into(h, options ? *options : kDefaults); });
+  return make_run(model, run,
+                  [options](tc_run& h) { fly_into(h, options ? *options : kDefaults); });
 }
 
 tc_status tc_model_prove(const tc_model* model, const tc_run_options* options, tc_run** proof) {
-  return make(model, proof,
-              [options](tc_run& h) { prove_into(h, options ? *options : kDefaults); });
+  return make_run(model, proof,
+                  [options](tc_run& h) { prove_into(h, options ? *options : kDefaults); });
 }
 
 tc_status tc_model_attribute(const tc_model* model, const tc_run_options* options,
                              tc_run** attribution) {
-  return make(model, attribution,
-              [options](tc_run& h) { attribute_into(h, options ? *options : kDefaults); });
+  return make_run(model, attribution,
+                  [options](tc_run& h) { attribute_into(h, options ? *options : kDefaults); });
 }
 
 void tc_run_free(tc_run* run) { delete run; }
@@ -168,10 +127,11 @@ tc_status tc_run_read(tc_run* run, tc_engine engine, double* rows, size_t size) 
 
 tc_status tc_run_save(tc_run* run, const char* folder) {
   return inside(run, Use::kAsks, [&] {
-    if (!run->run) refuse("a proof or an attribution has no files");
+    if (!run->run && !run->campaign) refuse("a proof or an attribution has no files");
     if (folder == nullptr || *folder == '\0') refuse("a folder must have a name");
-    if (const std::string error = run->run->save(folder); !error.empty())
-      throw Fault(TC_FILE, error);
+    const std::string error =
+        run->run ? run->run->save(folder) : save_campaign(*run->campaign, folder);
+    if (!error.empty()) throw Fault(TC_FILE, error);
   });
 }
 

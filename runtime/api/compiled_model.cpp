@@ -33,10 +33,22 @@ CompiledModel::CompiledModel(LoadedSpec spec, Bundle bundle)
       outputs_("output", output_signals_),
       states_("state", state_signals_) {}
 
+std::shared_ptr<const CompiledModel> CompiledModel::member(std::size_t index,
+                                                           Diagnostics& diagnostics) const {
+  return load(
+      {fmt::format("<member {}>", index), spec_.campaign_settings(index), bundle_.text(kResolved)},
+      diagnostics);
+}
+
 MassProperties CompiledModel::mass_properties() const {
   const VehicleState& start = model().initial;
   return system_properties(model().assembly,
                            configuration(model().assembly, start.joint_position, start.joint_rate));
+}
+
+const CampaignPlan& campaign_of(const CompiledModel& model) {
+  if (const CampaignPlan* plan = model.spec().campaign()) return *plan;
+  throw Fault(TC_SPEC, fmt::format("`{}` has no `campaign`", model.model().name));
 }
 
 void read_signals(const std::vector<OutputSignal>& signals, const Observation& seen,

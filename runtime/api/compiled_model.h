@@ -26,6 +26,8 @@ class CompiledModel {
   const LoadedSpec& spec() const { return spec_; }
   const Bundle& bundle() const { return bundle_; }
   const Model& model() const { return bundle_.model; }
+  /// A member of its campaign, drawn. @throws Fault as load(): what was drawn is no vehicle
+  std::shared_ptr<const CompiledModel> member(std::size_t index, Diagnostics& diagnostics) const;
   /// SHA-256 of the resolved spec: whoever has the same has the same vehicle.
   const std::string& digest() const { return bundle_.emitted.at(kResolved).sha256; }
 
@@ -45,6 +47,9 @@ class CompiledModel {
   std::vector<OutputSignal> output_signals_, state_signals_;
   SignalList inputs_, outputs_, states_;
 };
+
+/// @throws Fault(TC_SPEC): it has none
+const CampaignPlan& campaign_of(const CompiledModel& model);
 
 /// Set `numbers` to what a sample shows of `signals`. @pre sizes fit
 void read_signals(const std::vector<OutputSignal>& signals, const Observation& seen,

@@ -194,10 +194,12 @@ std::string checked_line(std::string_view text) {
   return fmt::format("{} {}\n", checksum(text), text);
 }
 
+std::string header_json(const RecordsHeader& header) {
+  return to_json(header).dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
 std::string header_line(const RecordsHeader& header) {
-  return fmt::format(
-      "{}{} {}", kFormat, kVersion,
-      checked_line(to_json(header).dump(-1, ' ', false, Json::error_handler_t::replace)));
+  return fmt::format("{}{} {}", kFormat, kVersion, checked_line(header_json(header)));
 }
 
 std::string members_line(std::size_t members) {

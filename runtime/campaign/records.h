@@ -53,6 +53,9 @@ struct MemberRecord {
   bool operator==(const MemberRecord&) const = default;
 };
 
+/// As the header's line has it, JSON.
+std::string header_json(const RecordsHeader& header);
+
 /// The lines of a file, each with its end.
 std::string header_line(const RecordsHeader& header);
 /// How many members the campaign has from now on. A file has it after its header, and again where

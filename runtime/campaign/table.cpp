@@ -118,6 +118,19 @@ bool CampaignTable::is_flown(std::size_t row) const {
   return verdict(row) != Verdict::kFailed && verdict(row) != Verdict::kInterrupted;
 }
 
+MemberRecord CampaignTable::record(std::size_t row) const {
+  MemberRecord record;
+  record.member = members_[row];
+  for (const std::vector<double>& column : drawn_) record.drawn.push_back(column[row]);
+  for (const std::vector<double>& column : outputs_)
+    record.outputs.push_back(std::isnan(column[row]) ? std::nullopt : std::optional(column[row]));
+  record.verdict = verdict(row);
+  record.twin = twin(row);
+  record.seconds = seconds_[row];
+  record.reason = reason(row);
+  return record;
+}
+
 std::vector<MemberRange> CampaignTable::missing(std::size_t count) const {
   std::vector<MemberRange> ranges;
   std::size_t next = 0;

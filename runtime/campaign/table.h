@@ -47,6 +47,8 @@ class CampaignTable {
   std::string_view reason(std::size_t row) const;
   /// The member has flown as far as its plan says, or stopped where it had to: its outputs count.
   bool is_flown(std::size_t row) const;
+  /// The row as it was added, and with what take_twin() added to it.
+  MemberRecord record(std::size_t row) const;
 
   /// Of the members 0 to count - 1, those without a row.
   std::vector<MemberRange> missing(std::size_t count) const;

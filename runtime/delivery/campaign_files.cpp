@@ -7,6 +7,9 @@
 
 #include "compiler/diag/diagnostics.h"
 #include "compiler/files/output.h"
+#include "runtime/delivery/campaign_shards.h"
+#include "runtime/delivery/file_parts.h"
+#include "runtime/delivery/report_files.h"
 #include "runtime/report/campaign_csv.h"
 #include "runtime/report/campaign_json.h"
 #include "runtime/report/campaign_netcdf.h"
@@ -30,6 +33,19 @@ void put_csv(const CampaignTable& table, PendingFile& file) {
     text.clear();
   }
   file.append(text);
+}
+
+/// What is kept of a member. @return as write_files
+std::string copy_kept(std::size_t member, const fs::path& from, OutputFolder& to) {
+  std::vector<PendingFile> copies;
+  for (const std::string& name : OutputFolder::trajectory_names()) {
+    const fs::path file = from / member_folder(member) / name;
+    if (!fs::exists(file)) continue;
+    std::string error = copy_in_parts(file, copies.emplace_back(to.of_member(member) / name));
+    if (!error.empty()) return error;
+    to.wrote(member, name);
+  }
+  return publish(copies);
 }
 
 /// @return empty, or what the library refuses
@@ -62,6 +78,17 @@ std::string write_campaign(const CampaignReport& report, const OutputFolder& fol
   std::string error = publish(files);
   if (error.empty()) folder.remove_leftovers();
   return error;
+}
+
+std::string save_campaign(const CampaignReport& report, const std::string& from,
+                          const std::string& folder) {
+  if (folder.empty()) return kNoFolder;
+  if (std::string error = try_files(campaign_paths(folder)); !error.empty()) return error;
+  OutputFolder saved(folder, OutputFolder::First::kApart);
+  std::string error = CampaignShards(from).copy_to(CampaignShards(folder));
+  for (const std::size_t member : report.kept)
+    if (error.empty()) error = copy_kept(member, from, saved);
+  return error.empty() ? write_campaign(report, saved) : error;
 }
 
 std::vector<std::string> campaign_paths(const std::string& folder) {

@@ -14,6 +14,11 @@ namespace twincraft {
 /// an earlier run left in the folder goes. @return as write_files
 std::string write_campaign(const CampaignReport& report, const OutputFolder& folder);
 
+/// The same into another folder than `from`, where it was flown into, with its shards and the
+/// trajectories that were kept. @return as write_files
+std::string save_campaign(const CampaignReport& report, const std::string& from,
+                          const std::string& folder);
+
 /// What they are called in a folder.
 std::vector<std::string> campaign_paths(const std::string& folder);
 

@@ -142,6 +142,8 @@ class Campaign {
     if (request_.resume) found = shards.find(header_, own, plan_.members);
     result_.error = found.error;
     if (failed()) return;
+    const std::vector<MemberRecord> taken = take_records(found.done);
+    if (failed()) return;
     const std::vector<std::size_t> members = members_to_fly(own, found.done);
     result_.resumed = std::ranges::count(found.done, true);
     {
@@ -151,6 +153,7 @@ class Campaign {
       if (!request_.resume && !request_.shard) shards.remove_others(own);
       result_.error = write_files({{shards.spec().string(), compiled_.bundle.text(kResolved)}});
       if (failed()) return;
+      for (const MemberRecord& record : taken) sink.take(record);
       fly_members(members, sink);
       result_.error = sink.error();
       if (failed()) return;
@@ -158,6 +161,22 @@ class Campaign {
     if (request_.shard) return conclude_shard();
     std::optional<MergedCampaign> merged = shards.merge(result_.error);
     if (merged) finish(*std::move(merged));
+  }
+
+  /// What was flown elsewhere and is not there yet. @param done  by member: so are they then
+  std::vector<MemberRecord> take_records(std::vector<bool>& done) {
+    const std::optional<MergedCampaign> merged =
+        merge_records(header_, request_.records, result_.error);
+    if (!merged) return {};
+    taken_remarks_ = merged->remarks;
+    std::vector<MemberRecord> records;
+    for (std::size_t row = 0; row < merged->table.rows(); ++row) {
+      MemberRecord record = merged->table.record(row);
+      if (record.member >= done.size() || done[record.member]) continue;
+      done[record.member] = true;
+      records.push_back(std::move(record));
+    }
+    return records;
   }
 
   void fly_members(std::vector<std::size_t> members, RecordSink& sink) {
@@ -212,6 +231,7 @@ class Campaign {
 
   /// From records to everything that is said of them.
   void finish(MergedCampaign merged) {
+    merged.remarks.insert(merged.remarks.begin(), taken_remarks_.begin(), taken_remarks_.end());
     result_.remarks = merged.remarks;
     OutputFolder folder(request_.folder, OutputFolder::First::kApart);
     const std::vector<std::size_t> kept = members_to_keep(plan_, merged.table);
@@ -277,6 +297,7 @@ class Campaign {
   const CampaignRequest& request_;
   const CampaignPlan& plan_;
   RecordsHeader header_;
+  std::vector<std::string> taken_remarks_;  // on records that were flown elsewhere
   CampaignResult result_;
 };
 

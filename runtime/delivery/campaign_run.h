@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "runtime/delivery/campaign_shards.h"
@@ -22,6 +23,9 @@ struct CampaignRequest {
   std::string folder;          // empty: nothing is written
   std::optional<Shard> shard;  // nothing: all members, and the merge
   bool resume = false;         // keep what the folder has of this campaign
+  /// The bytes of shards' files that were flown elsewhere: their members are taken from there, the
+  /// others are flown. @pre there is a folder
+  std::vector<std::string_view> records = {};
   bool stops_on_failure = false;
   bool netcdf = false;       // trajectories of members that are kept as netCDF, too
   std::string program = {};  // that the report names; empty: `scsim VERSION`

@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <charconv>
 #include <fstream>
+#include <sstream>
 #include <system_error>
 
 #include "compiler/diag/diagnostics.h"
+#include "runtime/delivery/file_parts.h"
 
 namespace twincraft {
 namespace {
@@ -119,6 +121,36 @@ void CampaignShards::remove_others(const Shard& own) const {
     std::error_code ignored;
     if (path != path_of(own)) fs::remove(path, ignored);
   }
+}
+
+std::string CampaignShards::copy_to(const CampaignShards& other) const {
+  const std::vector<fs::path> parts = files();
+  std::vector<PendingFile> copies;
+  std::string error = copy_in_parts(spec(), copies.emplace_back(other.spec()));
+  for (const fs::path& part : parts)
+    if (error.empty())
+      error = copy_in_parts(part, copies.emplace_back(other.folder_ / part.filename()));
+  if (error.empty()) error = publish(copies);
+  if (!error.empty()) return error;
+  for (const fs::path& there : other.files()) {
+    std::error_code ignored;
+    if (!std::ranges::binary_search(parts, folder_ / there.filename())) fs::remove(there, ignored);
+  }
+  return {};
+}
+
+std::optional<MergedCampaign> merge_records(const RecordsHeader& header,
+                                            std::span<const std::string_view> files,
+                                            std::string& error) {
+  CampaignMerge merge;
+  std::istringstream own(header_line(header));  // the others must be of the same campaign
+  error = merge.add("own", own);
+  for (std::size_t i = 0; i < files.size() && error.empty(); ++i) {
+    std::istringstream in{std::string(files[i])};
+    error = merge.add(fmt::format("records {}", i + 1), in);
+  }
+  if (!error.empty()) return std::nullopt;
+  return std::move(merge).finish(error);
 }
 
 ShardFile::ShardFile(const fs::path& path, const CampaignShards::Found& found,

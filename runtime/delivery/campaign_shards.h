@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -56,12 +57,20 @@ class CampaignShards {
   std::filesystem::path path_of(const Shard& shard) const { return folder_ / shard.file_name(); }
   /// Those that are not `own`, of an earlier campaign.
   void remove_others(const Shard& own) const;
+  /// All parts, and the spec; parts that lie there already go. @return as write_files
+  std::string copy_to(const CampaignShards& other) const;
 
  private:
   std::vector<std::filesystem::path> files() const;  // sorted
 
   std::filesystem::path folder_;
 };
+
+/// Shards' files that were flown elsewhere, as one table. @param files  their bytes
+/// @return nothing where `error` says why they are not of the campaign that `header` is of
+std::optional<MergedCampaign> merge_records(const RecordsHeader& header,
+                                            std::span<const std::string_view> files,
+                                            std::string& error);
 
 /// A shard's file, as members are flown.
 class ShardFile {

@@ -22,4 +22,11 @@ std::string read_in_parts(const std::filesystem::path& file,
   return fmt::format("cannot read {}", in_backticks(file.string()));
 }
 
+std::string copy_in_parts(const std::filesystem::path& file, PendingFile& copy) {
+  std::string error = read_in_parts(file, [&copy](std::string_view part) { copy.append(part); });
+  if (!error.empty()) return error;
+  copy.finish();
+  return copy.error();
+}
+
 }  // namespace twincraft

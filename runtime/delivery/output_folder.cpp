@@ -18,18 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Those that a member can have, in the order of the bits of OutputFolder::written_.
-const std::vector<std::string>& trajectories() {
-  static const std::vector<std::string> names = [] {
-    std::vector<std::string> all;
-    for (const char* suffix : {".csv", ".nc"})
-      for (const EngineName& engine : kEngines)
-        all.push_back(fmt::format("{}{}", engine.key, suffix));
-    return all;
-  }();
-  return names;
-}
-
 /// A member's number of a name such as `0001`; nothing of any other name.
 std::optional<std::size_t> member_of(const std::string& name) {
   std::size_t member = 0;
@@ -68,13 +56,25 @@ std::vector<fs::path> members_in(const fs::path& folder) {
 
 }  // namespace
 
+/// In the order of the bits of written_.
+const std::vector<std::string>& OutputFolder::trajectory_names() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all;
+    for (const char* suffix : {".csv", ".nc"})
+      for (const EngineName& engine : kEngines)
+        all.push_back(fmt::format("{}{}", engine.key, suffix));
+    return all;
+  }();
+  return names;
+}
+
 fs::path OutputFolder::of_member(std::size_t index) const {
   const bool is_beside = index == 0 && first_ == First::kBeside;
   return is_beside ? folder_ : folder_ / fmt::format("{:04}", index);
 }
 
 void OutputFolder::wrote(std::size_t member, std::string_view name) {
-  const auto file = std::ranges::find(trajectories(), name) - trajectories().begin();
+  const auto file = std::ranges::find(trajectory_names(), name) - trajectory_names().begin();
   if (written_.size() <= member) written_.resize(member + 1, 0);
   written_[member] = static_cast<std::uint8_t>(written_[member] | 1U << file);
 }
@@ -86,13 +86,13 @@ bool OutputFolder::has_written(std::size_t member, std::size_t file) const {
 void OutputFolder::for_each_written(
     const std::function<void(std::size_t member, const std::string& name)>& visit) const {
   for (std::size_t member = 0; member < written_.size(); ++member)
-    for (std::size_t file = 0; file < trajectories().size(); ++file)
-      if (has_written(member, file)) visit(member, trajectories().at(file));
+    for (std::size_t file = 0; file < trajectory_names().size(); ++file)
+      if (has_written(member, file)) visit(member, trajectory_names().at(file));
 }
 
 void OutputFolder::clean(const fs::path& folder, std::size_t member) const {
-  for (std::size_t file = 0; file < trajectories().size(); ++file) {
-    if (!has_written(member, file)) remove_plain(folder / trajectories().at(file));
+  for (std::size_t file = 0; file < trajectory_names().size(); ++file) {
+    if (!has_written(member, file)) remove_plain(folder / trajectory_names().at(file));
   }
 }
 

@@ -19,6 +19,9 @@ class OutputFolder {
   explicit OutputFolder(std::filesystem::path folder, First first = First::kBeside)
       : folder_(std::move(folder)), first_(first) {}
 
+  /// What a member's files of ours may be called: `bsm.csv`, `mujoco.csv`, and the same in netCDF.
+  static const std::vector<std::string>& trajectory_names();
+
   const std::filesystem::path& path() const { return folder_; }
   /// DIR/0001 and so on; of the first member DIR or DIR/0000.
   std::filesystem::path of_member(std::size_t index) const;

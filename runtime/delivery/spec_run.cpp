@@ -69,12 +69,9 @@ std::unique_ptr<ScratchFolder> scratch_of(const RunRequest& request, bool is_stu
 std::string copy_file(const OutputFolder& from, OutputFolder& to, std::size_t member,
                       const std::string& name) {
   std::vector<PendingFile> files;
-  PendingFile& file = files.emplace_back(to.of_member(member) / name);
-  const auto append = [&file](std::string_view part) { file.append(part); };
-  if (std::string error = read_in_parts(from.of_member(member) / name, append); !error.empty())
-    return error;
-  file.finish();
-  std::string error = file.error().empty() ? publish(files) : file.error();
+  std::string error =
+      copy_in_parts(from.of_member(member) / name, files.emplace_back(to.of_member(member) / name));
+  if (error.empty()) error = publish(files);
   if (error.empty()) to.wrote(member, name);
   return error;
 }

@@ -77,8 +77,8 @@ const std::map<std::string, Rooms> kArrows = {
     // And what strangers see of it.
     {"runtime/api",
      {"compiler", "compiler/analysis", "compiler/diag", "compiler/ir", "compiler/units",
-      "runtime/bsm", "runtime/compare", "runtime/delivery", "runtime/engine", "runtime/report",
-      "runtime/simulate", "runtime/api/include"}},
+      "runtime/bsm", "runtime/campaign", "runtime/compare", "runtime/delivery", "runtime/engine",
+      "runtime/report", "runtime/simulate", "runtime/api/include"}},
     {"runtime/api/python", {}},  // the library as any program has it
 };
 

@@ -304,6 +304,71 @@ TC_API tc_status tc_run_read(tc_run* run, tc_engine engine, double* rows, size_t
 /* Write what `scsim -o FOLDER` writes. TC_FILE. */
 TC_API tc_status tc_run_save(tc_run* run, const char* folder);
 
+/* ---- Campaigns: what scsim says of a spec with a `campaign` ---- */
+
+/* Members that both engines fly, as `--engine` has it. */
+typedef enum tc_twins {
+  TC_TWINS_PLANNED = 0, /* those of `campaign.twin` and `campaign.keep` */
+  TC_TWINS_ALL = 1,     /* `--engine both` */
+  TC_TWINS_NONE = 2     /* `--engine bsm` */
+} tc_twins;
+
+typedef struct tc_campaign_options {
+  size_t size; /* sizeof(tc_campaign_options) */
+  tc_twins twins;
+  int jobs;           /* members at a time; 0: all cores */
+  const char* isa;    /* as `--isa`; NULL: `auto` */
+  const char* folder; /* files are written here while it is flown; NULL: into a temporary one */
+  size_t shard;       /* 1 to `shards`: fly this part alone */
+  size_t shards;      /* 0: fly all members */
+  int resume;         /* not 0: keep the members that `folder` has */
+  /* Shards that were flown elsewhere, TC_CAMPAIGN_RECORDS of each: their members are taken from
+   * there, the others are flown. */
+  const char* const* records;
+  const size_t* record_sizes;
+  size_t record_count;
+  tc_poll poll; /* may be NULL */
+  void* context;
+} tc_campaign_options;
+
+/* What `scsim SPEC [-o FOLDER]` does of a spec with a campaign; tc_run_save() writes its files,
+ * tc_run_json() is its report, and a verdict is no fault. A shard has records and no table, no
+ * report and no files. `options` may be NULL. A poll may end it: the verdict is `interrupted`, or
+ * TC_INTERRUPTED where there is no table; what was flown is in `folder` for `resume`.
+ * TC_SPEC: the spec has no campaign. TC_FILE: `folder` cannot be written, or it or `records` are of
+ * another spec. */
+TC_API tc_status tc_model_campaign(const tc_model* model, const tc_campaign_options* options,
+                                   tc_run** campaign);
+/* A member of the model's campaign as a model of its own, without a campaign: the spec with what is
+ * drawn for it. TC_SPEC: there is no campaign, or what is drawn is no vehicle. */
+TC_API tc_status tc_model_member(const tc_model* model, size_t member, tc_model** drawn);
+/* What the program would end with, TC_INTERRUPTED aside. */
+TC_API int tc_campaign_exit_code(const tc_run* campaign);
+/* The table: a row per member, rising; columns are the drawn numbers, the outputs, `seconds`. */
+TC_API size_t tc_campaign_rows(const tc_run* campaign);
+TC_API size_t tc_campaign_columns(const tc_run* campaign);
+/* NULL beyond the last. */
+TC_API const char* tc_campaign_column_name(const tc_run* campaign, size_t column);
+TC_API const char* tc_campaign_column_unit(const tc_run* campaign, size_t column);
+/* A number per row, SI; NaN where there is none. */
+TC_API tc_status tc_campaign_read(tc_run* campaign, size_t column, double* values, size_t size);
+/* Of a row: its member, its verdict and why it is broken, stopped or failed; any may be NULL. */
+TC_API tc_status tc_campaign_row(tc_run* campaign, size_t row, size_t* member, const char** verdict,
+                                 const char** reason);
+/* The flown members, at most `capacity`, that break the requirement on an output by most or come
+ * nearest to it, worst first; of an output without one the largest. `by` NULL: the output of
+ * `campaign.keep`, else the first with a requirement, else the first. TC_USAGE: an unknown one. */
+TC_API tc_status tc_campaign_worst(tc_run* campaign, const char* by, size_t* members,
+                                   size_t capacity, size_t* count);
+
+typedef enum tc_campaign_texts {
+  TC_CAMPAIGN_HEADER = 0, /* what all rows have in common, JSON: the columns with their meaning */
+  TC_CAMPAIGN_CSV = 1,    /* campaign.csv */
+  TC_CAMPAIGN_RECORDS = 2 /* of a shard, or of all: what `records` of the options takes */
+} tc_campaign_texts;
+/* Empty where it has none. `length` may be NULL. */
+TC_API const char* tc_campaign_text(tc_run* campaign, tc_campaign_texts which, size_t* length);
+
 #ifdef __cplusplus
 }
 #endif

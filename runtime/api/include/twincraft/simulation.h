@@ -235,13 +235,76 @@ class Run {
   /// Write the files of `scsim -o folder`. @throws FileError
   void save(const std::string& folder) const { check(tc_run_save(handle(), folder.c_str())); }
 
- private:
+ protected:
   friend class Model;
   explicit Run(tc_run* run) : run_(run) {}
   tc_run* handle() const { return run_.get(); }
   void check(tc_status status) const { detail::check(status, tc_run_error(handle())); }
 
+ private:
   detail::Owned<tc_run, tc_run_free> run_;
+};
+
+enum class Twins { planned = TC_TWINS_PLANNED, all = TC_TWINS_ALL, none = TC_TWINS_NONE };
+
+struct CampaignOptions {
+  Twins twins = Twins::planned;       // members that both engines fly
+  int jobs = 0;                       // members at a time; 0: all cores
+  std::string isa = "auto";           // as --isa
+  std::string folder;                 // files are written here; empty: nowhere
+  std::size_t shard = 0, shards = 0;  // fly part 1 to `shards` alone; 0: all
+  bool resume = false;                // keep the members that `folder` has
+  std::vector<std::string> records;   // of shards that were flown elsewhere
+  tc_poll poll = nullptr;
+  void* context = nullptr;
+};
+
+/// A campaign as scsim flies it, or a shard of one, which has records alone.
+class Campaign : public Run {
+ public:
+  std::size_t rows() const { return tc_campaign_rows(handle()); }
+  /// Names and units of the drawn numbers, the outputs and `seconds`.
+  std::vector<Signal> columns() const {
+    std::vector<Signal> all;
+    for (std::size_t i = 0; i < tc_campaign_columns(handle()); ++i)
+      all.push_back(
+          {tc_campaign_column_name(handle(), i), tc_campaign_column_unit(handle(), i), ""});
+    return all;
+  }
+  /// @pre values has room for rows() numbers
+  void read(std::size_t column, double* values, std::size_t size) const {
+    check(tc_campaign_read(handle(), column, values, size));
+  }
+  struct Row {
+    std::size_t member = 0;
+    std::string verdict, reason;
+  };
+  Row row(std::size_t index) const {
+    std::size_t member = 0;
+    const char *verdict = "", *reason = "";
+    check(tc_campaign_row(handle(), index, &member, &verdict, &reason));
+    return {member, verdict, reason};
+  }
+  /// Members, worst first. @param by  an output; empty: as the campaign keeps members
+  std::vector<std::size_t> worst(std::size_t most, const std::string& by = "") const {
+    std::vector<std::size_t> members(most);
+    std::size_t count = 0;
+    check(tc_campaign_worst(handle(), by.empty() ? nullptr : by.c_str(), members.data(), most,
+                            &count));
+    members.resize(count);
+    return members;
+  }
+  std::string text(tc_campaign_texts which) const {
+    std::size_t length = 0;
+    const char* text = tc_campaign_text(handle(), which, &length);
+    return {text, length};
+  }
+  using Run::text;
+  int exit_code() const { return tc_campaign_exit_code(handle()); }
+
+ private:
+  friend class Model;
+  using Run::Run;
 };
 
 /// A compiled spec. Copies share it.
@@ -316,6 +379,39 @@ class Model {
   /// Why do the engines differ?
   Run attribute(const RunOptions& how = {}) const { return finished(tc_model_attribute, how); }
 
+  /// Flies the spec's campaign. @throws SpecError: it has none; FileError
+  Campaign campaign(const CampaignOptions& how = {}) const {
+    std::vector<const char*> records;
+    std::vector<std::size_t> sizes;
+    for (const std::string& one : how.records) {
+      records.push_back(one.data());
+      sizes.push_back(one.size());
+    }
+    const tc_campaign_options options{sizeof options,
+                                      static_cast<tc_twins>(how.twins),
+                                      how.jobs,
+                                      how.isa.c_str(),
+                                      how.folder.empty() ? nullptr : how.folder.c_str(),
+                                      how.shard,
+                                      how.shards,
+                                      how.resume ? 1 : 0,
+                                      records.data(),
+                                      sizes.data(),
+                                      records.size(),
+                                      how.poll,
+                                      how.context};
+    tc_run* handle = nullptr;
+    const tc_status status = tc_model_campaign(this->handle(), &options, &handle);
+    Campaign campaign(handle);
+    if (status == TC_SPEC) throw SpecError(tc_run_error(handle), "");
+    detail::check(status, tc_run_error(handle));
+    return campaign;
+  }
+  /// A member of its campaign: the spec with what is drawn for it.
+  Model member(std::size_t index) const {
+    return checked([&](tc_model** drawn) { return tc_model_member(handle(), index, drawn); });
+  }
+
   tc_model* handle() const { return model_.get(); }
 
  private:
@@ -328,8 +424,12 @@ class Model {
     for (const std::string& one : set) overrides.push_back(one.c_str());
     const tc_load_options options{sizeof options, overrides.data(), overrides.size(),
                                   name.empty() ? nullptr : name.c_str()};
+    return checked([&](tc_model** model) { return load(&options, model); });
+  }
+  template <class Make>
+  static Model checked(const Make& make) {
     tc_model* handle = nullptr;
-    const tc_status status = load(&options, &handle);
+    const tc_status status = make(&handle);
     Model model(handle);
     if (status == TC_SPEC) throw SpecError(tc_model_error(handle), tc_model_diagnostics(handle));
     detail::check(status, tc_model_error(handle));
