@@ -88,6 +88,12 @@ tc_status tc_model_loads(const char* text, size_t length, const tc_load_options*
   });
 }
 
+size_t tc_model_campaign_members(const tc_model* model) {
+  const bool is_whole = model != nullptr && model->is_whole();
+  const CampaignPlan* plan = is_whole ? model->model->spec().campaign() : nullptr;
+  return plan == nullptr ? 0 : plan->members;
+}
+
 tc_status tc_model_member(const tc_model* model, size_t member, tc_model** drawn) {
   if (model == nullptr || !model->is_whole()) return TC_USAGE;
   return make(drawn, [&](Diagnostics& diagnostics) {

@@ -339,6 +339,8 @@ typedef struct tc_campaign_options {
  * another spec. */
 TC_API tc_status tc_model_campaign(const tc_model* model, const tc_campaign_options* options,
                                    tc_run** campaign);
+/* `campaign.members`; 0: there is no campaign. */
+TC_API size_t tc_model_campaign_members(const tc_model* model);
 /* A member of the model's campaign as a model of its own, without a campaign: the spec with what is
  * drawn for it. TC_SPEC: there is no campaign, or what is drawn is no vehicle. */
 TC_API tc_status tc_model_member(const tc_model* model, size_t member, tc_model** drawn);

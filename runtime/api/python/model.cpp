@@ -9,6 +9,7 @@
 
 #include "runtime/api/python/arrays.h"
 #include "runtime/api/python/faults.h"
+#include "runtime/api/python/watched.h"
 
 using namespace nanobind::literals;
 
@@ -48,22 +49,6 @@ CompiledModel loads(const std::string& text, const Texts& set, const std::string
   return CompiledModel(std::move(*model));
 }
 
-/// Work that ends when a signal comes, which then is the exception.
-template <class Work>
-twincraft::Run watched(twincraft::RunOptions options, const Work& work) {
-  options.poll = poll_signals;
-  std::optional<twincraft::Run> run;
-  try {
-    const nb::gil_scoped_release others_go_on;
-    run.emplace(work(options));
-  } catch (const Interrupted&) {
-    throw_pending();
-    throw;
-  }
-  throw_pending();
-  return *std::move(run);
-}
-
 twincraft::Run fly(const CompiledModel& model, const std::string& engine, bool timing) {
   twincraft::RunOptions options;
   options.engines = engines_named(engine);
@@ -72,11 +57,13 @@ twincraft::Run fly(const CompiledModel& model, const std::string& engine, bool t
 }
 
 twincraft::Run prove(const CompiledModel& model) {
-  return watched({}, [&](const twincraft::RunOptions& how) { return model.model.prove(how); });
+  return watched(twincraft::RunOptions{},
+                 [&](const twincraft::RunOptions& how) { return model.model.prove(how); });
 }
 
 twincraft::Run attribute(const CompiledModel& model) {
-  return watched({}, [&](const twincraft::RunOptions& how) { return model.model.attribute(how); });
+  return watched(twincraft::RunOptions{},
+                 [&](const twincraft::RunOptions& how) { return model.model.attribute(how); });
 }
 
 nb::tuple mass_properties(const CompiledModel& model) {
@@ -86,6 +73,15 @@ nb::tuple mass_properties(const CompiledModel& model) {
   };
   return nb::make_tuple(all.mass, read_only_array({3}, copied(all.center_of_mass)),
                         read_only_array({3, 3}, copied(all.inertia)));
+}
+
+CompiledModel member(const CompiledModel& model, std::size_t index) {
+  std::optional<twincraft::Model> drawn;
+  {
+    const nb::gil_scoped_release others_go_on;
+    drawn = model.model.member(index);
+  }
+  return CompiledModel(std::move(*drawn));
 }
 
 nb::object samples(const twincraft::Run& run, const std::string& engine, std::size_t width) {
@@ -130,7 +126,11 @@ void bind_model(nb::module_& module) {
                    "numpy.typing.NDArray[numpy.float64]]"))
       .def("run", fly, "engine"_a, "timing"_a)
       .def("prove", prove)
-      .def("attribute", attribute);
+      .def("attribute", attribute)
+      .def("member", member, "index"_a)
+      .def_prop_ro("flight_cost", &CompiledModel::flight_cost)
+      .def_prop_ro("campaign_members",
+                   [](const CompiledModel& self) { return self.model.campaign_members(); });
 
   nb::class_<twincraft::Run>(module, "FinishedRun", "What a program of ours would have said.")
       .def_prop_ro("verdict", &twincraft::Run::verdict)

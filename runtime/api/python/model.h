@@ -27,6 +27,11 @@ class CompiledModel {
     return engine == twincraft::Engine::bsm ? 0.1 + 0.06 * n : 0.5 * n + 0.012 * n * n;
   }
 
+  /// About what a flight by the analytic engine takes, from t = 0 to its end [s].
+  double flight_cost() const {
+    return 1e-6 * step_cost(twincraft::Engine::bsm) * model.duration() / model.step();
+  }
+
   twincraft::Model model;
   Signals inputs, outputs, states;
 };
@@ -37,5 +42,6 @@ twincraft::Engine engine_named(const std::string& name);
 void bind_model(nb::module_& module);
 void bind_flyers(nb::module_& module);
 void bind_batch(nb::module_& module);
+void bind_campaign(nb::module_& module);
 
 }  // namespace twincraft::python

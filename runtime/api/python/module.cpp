@@ -13,4 +13,5 @@ NB_MODULE(_core, module) {
   bind_model(module);
   bind_flyers(module);
   bind_batch(module);
+  bind_campaign(module);
 }

@@ -407,6 +407,8 @@ class Model {
     detail::check(status, tc_run_error(handle));
     return campaign;
   }
+  /// 0: it has no campaign.
+  std::size_t campaign_members() const { return tc_model_campaign_members(handle()); }
   /// A member of its campaign: the spec with what is drawn for it.
   Model member(std::size_t index) const {
     return checked([&](tc_model** drawn) { return tc_model_member(handle(), index, drawn); });

@@ -17,6 +17,7 @@ from collections.abc import Mapping as _Mapping
 
 from . import _core
 from ._batch import Batch
+from ._campaign import Campaign
 from ._core import Inputs, Simulation, Twin
 from ._errors import (
     BusyError,
@@ -38,6 +39,7 @@ __version__: str = _core.version
 __all__ = [
     "Batch",
     "BusyError",
+    "Campaign",
     "Diagnostic",
     "Error",
     "FileError",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import operator
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -13,7 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _core as native
-from ._errors import Error, warn_of
+from ._campaign import Campaign, Executor, fly
+from ._errors import Error, InputError, warn_of
 from ._overrides import overrides
 from ._run import Finding, Run
 
@@ -208,6 +210,55 @@ class Model:
         Raises ValueError for an unknown engine.
         """
         return Run(self._core.run(engine, timing), self)
+
+    def campaign(
+        self,
+        executor: Executor | None = None,
+        *,
+        jobs: int | None = None,
+        folder: str | os.PathLike[str] | None = None,
+        engine: Literal["both", "bsm"] | None = None,
+        isa: Literal["auto", "portable", "avx2", "avx512"] = "auto",
+        tasks: int | None = None,
+        resume: bool = False,
+    ) -> Campaign:
+        """Fly the spec's campaign as ``scsim`` does: many members with drawn values.
+
+        ``executor`` None: in this process, on ``jobs`` threads (None: all cores). Else anything
+        that has ``submit``, such as ``concurrent.futures.ProcessPoolExecutor`` or
+        ``dask.distributed.Client``: the members are split into ``tasks`` (None: of about a second
+        each), each task flies on ``jobs`` threads (None: one), and the table is made here. It is
+        the same table, but for ``seconds``.
+
+        ``folder``: write the files of ``scsim -o FOLDER`` there; with ``resume`` the members that
+        it has are kept. ``engine``: "both" flies all members in both engines, "bsm" none; None as
+        the campaign says. ``isa``: instructions of the analytic engine.
+
+        A verdict is no exception. What a task raises comes through. Ctrl-C ends it; the members
+        flown are in ``folder`` then, for ``resume``, unless an executor flew.
+
+        >>> import twincraft as tc
+        >>> m = tc.load("models/gallery/dispersed_burn.yaml", set={"campaign.members": 8})
+        >>> c = m.campaign()
+        >>> len(c), c["delta_v"].shape, c.units["delta_v"]
+        (8, (8,), 'm/s')
+
+        Raises SpecError for a spec without a campaign, FileError where ``folder`` cannot be written
+        or holds the results of another spec, InputError for an ``isa`` that the processor lacks.
+        """
+        return fly(self, executor, jobs, folder, engine, isa, tasks, resume)
+
+    def member(self, i: int) -> Model:
+        """Member ``i`` of the spec's campaign as a model of its own: the spec with what is drawn
+        for it, and without its campaign.
+
+        Raises SpecError for a spec without a campaign, or where what is drawn is no vehicle;
+        InputError where there is no such member.
+        """
+        index = operator.index(i)
+        if index < 0:
+            raise InputError(f"members count from 0: there is no member {index}")
+        return Model._of(self._core.member(index))
 
     def simulate(self, engine: Literal["bsm", "mujoco"] = "bsm") -> native.Simulation:
         """One engine, at t = 0.

@@ -8,7 +8,7 @@ from html import escape
 from typing import TYPE_CHECKING, Any
 
 from . import _core
-from ._trajectory import Trajectory
+from ._trajectory import Trajectory, provenance
 
 if TYPE_CHECKING:
     from ._model import Model
@@ -93,7 +93,7 @@ class Run(Finding):
     def _attributes(self, engine: str) -> dict[str, str]:
         """Of the .nc file."""
         report = self.report
-        spec, provenance = report["spec"], report["provenance"]
+        spec = report["spec"]
         member = report["members"][0]
         return {
             "title": spec["name"],
@@ -101,11 +101,6 @@ class Run(Finding):
             "engine": engine,
             "spec_file": spec["file"],
             "spec_sha256": spec["sha256"],
-            "source": provenance["program"],
-            "git": provenance["git"],
-            "compiler": provenance["compiler"],
-            "compiler_flags": provenance["flags"],
-            "mujoco": provenance["mujoco"],
-            "eigen": provenance["eigen"],
+            **provenance(report),
             "settings": "".join(f"{path}={value}\n" for path, value in member["settings"].items()),
         }

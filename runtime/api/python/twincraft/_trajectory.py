@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
@@ -17,6 +17,28 @@ if TYPE_CHECKING:
     import xarray
 
 _COMPONENTS = {("x", "y", "z"): "xyz", ("w", "x", "y", "z"): "wxyz"}
+
+
+def hint(name: object, known: Iterable[str]) -> str:
+    """The near miss of an unknown name."""
+    from difflib import get_close_matches
+
+    near = get_close_matches(str(name), list(known), 1)
+    return f"; did you mean `{near[0]}`?" if near else ""
+
+
+def described(unit: str, meaning: str) -> dict[str, Any]:
+    """Attributes of a variable of a .nc file of ours. A unit is a product there: ``kg m-3``."""
+    product = re.sub(r"/([^ /0-9]*)([0-9]*)", lambda below: f" {below[1]}-{below[2] or 1}", unit)
+    return {"units": product, "long_name": meaning}
+
+
+def provenance(report: Mapping[str, Any]) -> dict[str, str]:
+    """Attributes of a .nc file of ours: which program wrote it."""
+    told = report["provenance"]
+    keys = {"source": "program", "git": "git", "compiler": "compiler", "compiler_flags": "flags",
+            "mujoco": "mujoco", "eigen": "eigen"}
+    return {name: told[key] for name, key in keys.items()}
 
 
 def _grouped(names: list[str]) -> Iterator[tuple[str, slice, str]]:
@@ -80,13 +102,7 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
             return self._numbers[:, self._groups[name][0]]
         if name == "t":
             return self._t
-        raise InputError(f"unknown name `{name}`{self._hint(name)}")
-
-    def _hint(self, name: str) -> str:
-        from difflib import get_close_matches
-
-        near = get_close_matches(str(name), list(self.units), 1)
-        return f"; did you mean `{near[0]}`?" if near else ""
+        raise InputError(f"unknown name `{name}`{hint(name, self.units)}")
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._groups)
@@ -116,9 +132,6 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
     def to_xarray(self) -> xarray.Dataset:
         """The .nc file, as xarray opens it: dimensions time, xyz and wxyz."""
         import xarray
-
-        def described(unit: str, meaning: str) -> dict[str, str]:
-            return {"units": re.sub(r"^([^/]*)/(.*)$", r"\1 \2-1", unit), "long_name": meaning}
 
         variables: dict[str, Any] = {}
         for name, (columns, label) in self._groups.items():
