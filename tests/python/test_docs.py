@@ -16,7 +16,7 @@ from conftest import ROOT
 
 import twincraft as tc
 
-MODULES = ["", "._model", "._batch", "._errors", "._overrides", "._run", "._trajectory"]
+MODULES = ["", "._model", "._batch", "._campaign", "._errors", "._overrides", "._run", "._trajectory"]
 
 
 @pytest.mark.parametrize("name", MODULES)

@@ -12,6 +12,7 @@ import pytest
 import twincraft as tc
 
 GOOD = '''
+from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 from typing import Any, assert_type
 import numpy as np
@@ -41,6 +42,13 @@ assert_type(sim.copy(), tc.Simulation)
 twin = m.twin(lead="each")
 twin.run_until(1.0, controller={"bsm": controller, "mujoco": controller})
 print(twin.bsm.time, twin.disagreement["attitude_deg"]["max"])
+with ProcessPoolExecutor(2) as pool:
+    c = m.campaign(pool, tasks=4, folder=Path("out"))
+assert_type(c, tc.Campaign)
+assert_type(m.campaign(jobs=2, engine="both", isa="avx2")["peak"], NDArray[np.float64])
+assert_type(c.worst(3, by="peak"), list[int])
+assert_type(c.member(3), tc.Model)
+print(c.units["peak"], c.report["campaign"], len(c), c.verdicts[0].upper(), c.members + 1)
 batch = tc.Batch(m, n=8, threads=None)
 batch.u = None
 batch.x = batch.x * 2.0
@@ -64,6 +72,8 @@ sim.step("1")
 sim.time = 3.0
 sim.run_until(1.0, controller=3)
 m.nothing
+m.campaign(engine="mujoco")
+m.campaign(3)
 '''
 
 
@@ -90,4 +100,4 @@ def test_wrong_arguments_are_found(tmp_path):
     pytest.importorskip("mypy")
     done = mypy(WRONG, tmp_path)
     lines = [line.split(":")[1] for line in done.stdout.splitlines() if ": error:" in line]
-    assert lines == ["5", "7", "8", "9", "10"], done.stdout
+    assert lines == ["5", "7", "8", "9", "10", "11", "12"], done.stdout

@@ -235,7 +235,7 @@ class Campaign(Finding):
         import pandas
 
         return pandas.read_csv(
-            io.StringIO(self._finished.csv()), index_col="member", float_precision="round_trip")
+            io.StringIO(self._finished.csv()), index_col="member")
 
     def to_xarray(self) -> xarray.Dataset:
         """``campaign.nc``, as xarray opens it: one dimension, member."""
