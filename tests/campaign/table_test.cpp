@@ -43,6 +43,19 @@ TEST(CampaignTable, HasItsRowsInTheOrderOfMembers) {
   EXPECT_FALSE(table.is_flown(1));
 }
 
+TEST(CampaignTable, GivesBackWhatWasAdded) {
+  MemberRecord twin = member_record(7);
+  twin.twin = twin.verdict = Verdict::kAgree;
+  twin.outputs = {0.2, 0.0};
+  CampaignTable table(campaign_header());
+  for (const MemberRecord& record : {member_record(2), failed_member(4, "it broke"), twin})
+    table.add(record);
+  ASSERT_EQ(table.settle(10), "");
+  EXPECT_EQ(table.record(0), member_record(2));
+  EXPECT_EQ(table.record(1), failed_member(4, "it broke"));
+  EXPECT_EQ(table.record(2), twin);
+}
+
 TEST(CampaignTable, SaysWhichMembersAreMissing) {
   CampaignTable table(campaign_header());
   EXPECT_EQ(words(table.missing(3)), "0-2");

@@ -4,6 +4,9 @@ a pool of processes: the table of `scsim SPEC -o DIR`, byte for byte but for the
 from __future__ import annotations
 
 import os
+import re
+import subprocess
+import sys
 import threading
 import time
 from collections.abc import Callable, Iterator
@@ -14,7 +17,7 @@ from typing import Any
 
 import pytest
 
-from conftest import Campaign
+from conftest import ROOT, Campaign
 
 distributed = pytest.importorskip("distributed", reason="no Dask; tools/setup --clusters installs it")
 tc = pytest.importorskip("twincraft", reason="no twincraft on PYTHONPATH; tools/check clusters builds it")
@@ -71,6 +74,15 @@ def test_a_worker_killed_midway_changes_no_byte(client: distributed.Client, camp
 def test_a_client_is_an_executor_as_it_is(client: distributed.Client, campaign: Campaign, flown_alone: Table):
     tc.load(campaign.spec).campaign(executor=client).save(campaign.out)
     assert campaign.table() == flown_alone
+
+
+def test_the_script_of_the_page_runs(tmp_path: Path):
+    (script,) = re.findall(r"```python\n(.*?)```", (ROOT / "docs" / "clusters.md").read_text(), re.DOTALL)
+    (tmp_path / "script.py").write_text(script)
+    (tmp_path / "models").symlink_to(ROOT / "models")
+    done = subprocess.run([sys.executable, "script.py"], cwd=tmp_path, capture_output=True, text=True, timeout=120)
+    assert "64 of 64 members flown" in done.stdout, done.stderr
+    assert (tmp_path / "out" / "campaign.csv").exists()
 
 
 def test_a_pool_of_processes_gives_the_same_table(campaign: Campaign, flown_alone: Table):

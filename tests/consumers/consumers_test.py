@@ -190,6 +190,11 @@ class Examples(unittest.TestCase):
                 self.assertEqual(float.fromhex(word).hex(), word)
         self.assertEqual(float.fromhex(rows[-1][0]), 30.0)
 
+    def test_fly_a_campaign_and_its_worst_members(self):
+        said = run(self.folder / "campaign", ROOT / "models/gallery/dispersed_burn.yaml").splitlines()
+        self.assertEqual(said[0], "64 members, not_judged")
+        self.assertEqual(said[1:], [f"member {number}: agree" for number in (36, 35, 23)])
+
 
 class Project(unittest.TestCase):
     """A project of a user: its own spec, compiled, tested, and compiled again."""

@@ -43,7 +43,7 @@ def test_the_page_runs(name, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     code = "\n".join(block for not_run, block in blocks if not not_run)
     with redirect_stdout(io.StringIO()) as out:
-        exec(compile(code, name, "exec"), {"__name__": "page"})
+        exec(compile(code, name, "exec"), {"__name__": "__main__"})
     assert out.getvalue()
 
 

@@ -65,6 +65,14 @@ TEST(Shard, TakesEachMemberOnce) {
   EXPECT_TRUE((Shard{2, 3}.takes(4)));
 }
 
+/// A shard's file with these members.
+std::string records(const std::vector<std::size_t>& members, std::size_t of,
+                    const RecordsHeader& header = campaign_header()) {
+  std::string text = header_line(header) + members_line(of);
+  for (const std::size_t member : members) text += record_line(member_record(member));
+  return text;
+}
+
 class CampaignFolder : public testing::Test {
  protected:
   CampaignFolder() { fs::create_directory(folder.path() + "/shards"); }
@@ -72,9 +80,7 @@ class CampaignFolder : public testing::Test {
   /// A shard's file with these members.
   void write(const Shard& shard, const std::vector<std::size_t>& members, std::size_t of,
              const RecordsHeader& header = campaign_header()) const {
-    std::string text = header_line(header) + members_line(of);
-    for (const std::size_t member : members) text += record_line(member_record(member));
-    folder.write("shards/" + shard.file_name(), text);
+    folder.write("shards/" + shard.file_name(), records(members, of, header));
   }
   std::string read(const Shard& shard) const { return folder.read("shards/" + shard.file_name()); }
 
@@ -182,6 +188,55 @@ TEST_F(CampaignFolder, MergesItsShards) {
 }
 
 /// A table of these peaks, member by member; nothing: the member failed.
+TEST(Records, OfShardsFlownElsewhereAreJoined) {
+  const std::string one = records({0, 3}, 4), other = records({1, 3}, 4);
+  const std::vector<std::string_view> files{one, other, one};
+  std::string error;
+  const std::optional<MergedCampaign> merged = merge_records(campaign_header(), files, error);
+  ASSERT_TRUE(merged) << error;
+  EXPECT_THAT(merged->table.members(), ElementsAre(0, 1, 3));
+  EXPECT_THAT(merged->remarks, IsEmpty());
+  const std::optional<MergedCampaign> none = merge_records(campaign_header(), {}, error);
+  ASSERT_TRUE(none);
+  EXPECT_EQ(none->table.rows(), 0U);
+}
+
+TEST(Records, OfAnotherCampaignAreRefused) {
+  RecordsHeader header = campaign_header();
+  header.spec_sha256 = "another";
+  const std::string other = records({0}, 1, header);
+  std::string error;
+  EXPECT_FALSE(merge_records(campaign_header(), std::vector<std::string_view>{other}, error));
+  EXPECT_THAT(error, HasSubstr("`records 1`: they are results of another spec"));
+}
+
+TEST(Records, OfOtherInstructionsAreRemarkedOn) {
+  RecordsHeader header = campaign_header();
+  header.instructions = "AVX-512";
+  const std::string other = records({0}, 1, header);
+  std::string error;
+  const std::optional<MergedCampaign> merged =
+      merge_records(campaign_header(), std::vector<std::string_view>{other}, error);
+  ASSERT_TRUE(merged);
+  EXPECT_THAT(merged->remarks,
+              ElementsAre("shards flew with AVX-512 and AVX2: last digits may differ"));
+}
+
+TEST_F(CampaignFolder, IsCopiedAndTakesThePlaceOfAnother) {
+  write({1, 2}, {0}, 2);
+  write({2, 2}, {1}, 2);
+  folder.write("shards/spec.yaml", "name: x\n");
+  const TemporaryFolder to;
+  fs::create_directory(to.path() + "/shards");
+  to.write("shards/1-of-1.records", "an earlier one");
+  to.write("shards/notes.txt", "the user's");
+  EXPECT_EQ(shards.copy_to(CampaignShards(to.path())), "");
+  for (const char* name : {"shards/1-of-2.records", "shards/2-of-2.records", "shards/spec.yaml"})
+    EXPECT_EQ(to.read(name), folder.read(name));
+  EXPECT_FALSE(fs::exists(to.path() + "/shards/1-of-1.records"));
+  EXPECT_TRUE(fs::exists(to.path() + "/shards/notes.txt"));
+}
+
 CampaignTable table_of(const std::vector<std::optional<double>>& peaks,
                        const std::vector<std::size_t>& absent = {}) {
   CampaignTable table(campaign_header());
