@@ -142,10 +142,9 @@ class Campaign {
     if (request_.resume) found = shards.find(header_, own, plan_.members);
     result_.error = found.error;
     if (failed()) return;
-    const std::vector<MemberRecord> taken = take_records(found.done);
+    const std::optional<MergedCampaign> elsewhere =
+        merge_records(header_, request_.records, result_.error);
     if (failed()) return;
-    const std::vector<std::size_t> members = members_to_fly(own, found.done);
-    result_.resumed = std::ranges::count(found.done, true);
     {
       ToFile sink(shards.path_of(own), found, header_, plan_.members);
       result_.error = sink.error();
@@ -153,8 +152,9 @@ class Campaign {
       if (!request_.resume && !request_.shard) shards.remove_others(own);
       result_.error = write_files({{shards.spec().string(), compiled_.bundle.text(kResolved)}});
       if (failed()) return;
-      for (const MemberRecord& record : taken) sink.take(record);
-      fly_members(members, sink);
+      take_records(*elsewhere, found.done, sink);
+      result_.resumed = std::ranges::count(found.done, true);
+      fly_members(members_to_fly(own, found.done), sink);
       result_.error = sink.error();
       if (failed()) return;
     }
@@ -164,19 +164,14 @@ class Campaign {
   }
 
   /// What was flown elsewhere and is not there yet. @param done  by member: so are they then
-  std::vector<MemberRecord> take_records(std::vector<bool>& done) {
-    const std::optional<MergedCampaign> merged =
-        merge_records(header_, request_.records, result_.error);
-    if (!merged) return {};
-    taken_remarks_ = merged->remarks;
-    std::vector<MemberRecord> records;
-    for (std::size_t row = 0; row < merged->table.rows(); ++row) {
-      MemberRecord record = merged->table.record(row);
-      if (record.member >= done.size() || done[record.member]) continue;
-      done[record.member] = true;
-      records.push_back(std::move(record));
+  void take_records(const MergedCampaign& elsewhere, std::vector<bool>& done, RecordSink& sink) {
+    taken_remarks_ = elsewhere.remarks;
+    const std::span<const std::size_t> members = elsewhere.table.members();
+    for (std::size_t row = 0; row < members.size(); ++row) {
+      if (members[row] >= done.size() || done[members[row]]) continue;
+      done[members[row]] = true;
+      sink.take(elsewhere.table.record(row));
     }
-    return records;
   }
 
   void fly_members(std::vector<std::size_t> members, RecordSink& sink) {

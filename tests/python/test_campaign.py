@@ -411,6 +411,13 @@ def test_a_killed_process_breaks_its_pool_and_nothing_is_written(model, flown, t
         assert table_of(model.campaign(another, tasks=6)) == table_of(flown)
 
 
+def test_a_worker_of_another_version_is_refused(model):
+    with ThreadPoolExecutor(1) as threads:
+        other = Instead(threads, lambda *how: campaign._fly_shard(*how[:-1], "0.0.9"))
+        with pytest.raises(tc.Error, match="twincraft 0.0.9"):
+            model.campaign(other, tasks=2)
+
+
 def test_records_of_another_spec_are_refused(spec, model, tmp_path):
     other = tc.load(spec, set={"campaign.seed": 4})
     with ThreadPoolExecutor(1) as threads:

@@ -18,8 +18,8 @@ namespace {
 twincraft::Twins twins_named(const std::string& engine) {
   if (engine.empty()) return twincraft::Twins::planned;
   if (engine == "both") return twincraft::Twins::all;
-  if (engine == "bsm") return twincraft::Twins::none;
-  refuse_value("the engine of a campaign is 'bsm' or 'both', not '" + engine + "'");
+  if (engine_named(engine) == twincraft::Engine::bsm) return twincraft::Twins::none;
+  refuse_value("members of a campaign fly in the analytic engine; 'both' adds the other to all");
 }
 
 twincraft::Campaign fly(const CompiledModel& model, const std::string& engine, int jobs,

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _core
-from ._errors import FileError, InputError
+from ._errors import Error, FileError, InputError
 from ._run import Finding
 from ._trajectory import described, hint, provenance
 
@@ -45,8 +45,12 @@ def _count_of(name: str, value: int | None) -> int:
     return count
 
 
-def _fly_shard(model: Model, shard: int, shards: int, engine: str, jobs: int, isa: str) -> bytes:
+def _fly_shard(
+    model: Model, shard: int, shards: int, engine: str, jobs: int, isa: str, version: str
+) -> bytes:
     """A task: the records of a part. It leaves nothing behind, so it may be flown twice."""
+    if version != _core.version:
+        raise Error(f"a campaign of twincraft {version} cannot be flown by a worker's {_core.version}")
     return _core.fly_campaign(
         model._core, engine, jobs, isa, "", shard, shards, False, []).records()
 
@@ -111,7 +115,7 @@ def fly(
             raise ValueError("`resume` goes without an executor")
         if place:
             _check_writable(place)
-        task = (model, engine or "", threads or 1, isa)
+        task = (model, engine or "", threads or 1, isa, _core.version)
         # None where there is no campaign, which is said below.
         count = min(parts or _tasks_of(model), model._core.campaign_members)
         records = _fly_elsewhere(executor, task, count)
