@@ -128,7 +128,7 @@ void bind_model(nb::module_& module) {
       .def("prove", prove)
       .def("attribute", attribute)
       .def("member", member, "index"_a)
-      .def_prop_ro("flight_cost", &CompiledModel::flight_cost)
+      .def_prop_ro("member_cost", &CompiledModel::member_cost)
       .def_prop_ro("campaign_members",
                    [](const CompiledModel& self) { return self.model.campaign_members(); });
 

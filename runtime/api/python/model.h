@@ -27,9 +27,9 @@ class CompiledModel {
     return engine == twincraft::Engine::bsm ? 0.1 + 0.06 * n : 0.5 * n + 0.012 * n * n;
   }
 
-  /// About what a flight by the analytic engine takes, from t = 0 to its end [s].
-  double flight_cost() const {
-    return 1e-6 * step_cost(twincraft::Engine::bsm) * model.duration() / model.step();
+  /// About what a member of a campaign takes, compiled and flown by the analytic engine [s].
+  double member_cost() const {
+    return 1e-4 + 1e-6 * step_cost(twincraft::Engine::bsm) * model.duration() / model.step();
   }
 
   twincraft::Model model;

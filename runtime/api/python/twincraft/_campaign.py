@@ -56,7 +56,7 @@ def _fly_shard(
 
 
 def _tasks_of(model: Model) -> int:
-    of_a_task = max(_LEAST_OF_A_TASK, int(_SECONDS_OF_A_TASK / max(model._core.flight_cost, 1e-9)))
+    of_a_task = max(_LEAST_OF_A_TASK, int(_SECONDS_OF_A_TASK / model._core.member_cost))
     return min(math.ceil(model._core.campaign_members / of_a_task), _MOST_TASKS)
 
 
