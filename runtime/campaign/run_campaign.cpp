@@ -11,6 +11,7 @@
 
 #include "runtime/bsm/kernel.h"
 #include "runtime/campaign/reductions.h"
+#include "runtime/linear/screen.h"
 #include "runtime/simulate/fleet.h"
 #include "runtime/study/in_order.h"
 
@@ -25,17 +26,29 @@ void add_reason(std::string& reason, const std::string& further) {
   reason += further;
 }
 
+/// Why the step does not resolve a member that flew to its end; empty: it does.
+std::string unresolved_words(const Member& member) {
+  std::string words;
+  if (!member.failed() && member.resolution)
+    for (const std::string& reason : member.resolution->reasons) add_reason(words, reason);
+  return words;
+}
+
 /// A member on its way to its record.
 class Flyer {
  public:
   Flyer(const CampaignPlan& plan, Bundle bundle)
       : bundle_(std::move(bundle)),
         outputs_(bundle_.model, plan.outputs),
-        watch_(bundle_.model, plan.stops) {}
+        watch_(bundle_.model, plan.stops),
+        screen_(bundle_.model) {}
+
+  const Bundle& bundle() const { return bundle_; }
 
   FleetMember in_fleet() {
     return {&bundle_, [this](const Observation& sample) {
               outputs_.take(sample);
+              screen_.see(sample);
               stopped_ = watch_.reason(sample);
               return stopped_.empty();
             }};
@@ -50,12 +63,18 @@ class Flyer {
     record.outputs = outputs_.results();
     record.reason = stopped_;
     add_reason(record.reason, broken_requirements(columns, record.outputs));
+    accepted_ = end.accepted;
   }
+
+  /// Whether its step is short enough to be seen without a judgement. @pre it has flown
+  bool is_surely_resolved() const { return screen_.passes(accepted_); }
 
  private:
   Bundle bundle_;
   OutputReducer outputs_;
   StopWatch watch_;
+  ResolutionScreen screen_;
+  AcceptedErrors accepted_;
   std::string stopped_;
 };
 
@@ -78,7 +97,11 @@ class Squad {
     const std::chrono::duration<double> spent = Clock::now() - start;
     for (MemberRecord& record : records)
       record.seconds = spent.count() / static_cast<double>(members.size());
-    return finish(std::move(records), interrupted);
+    std::vector<MemberRecord> finished;
+    for (std::size_t i = 0; i < records.size(); ++i)
+      if (!std::ranges::binary_search(interrupted, i) && judge(flyers[i].get(), records[i]))
+        finished.push_back(std::move(records[i]));
+    return finished;
   }
 
  private:
@@ -118,21 +141,21 @@ class Squad {
     return interrupted;
   }
 
-  std::vector<MemberRecord> finish(std::vector<MemberRecord> records,
-                                   const std::vector<std::size_t>& interrupted) const {
-    std::vector<MemberRecord> finished;
-    for (std::size_t i = 0; i < records.size(); ++i) {
-      if (std::ranges::binary_search(interrupted, i)) continue;
-      if (run_.is_twin(records[i].member) && !fly_twin(records[i])) continue;
-      finished.push_back(std::move(records[i]));
-    }
-    return finished;
-  }
-
+  /// In both engines, or in the one that flew it where its step may be too long.
   /// @return false: it was interrupted
-  bool fly_twin(MemberRecord& record) const {
+  bool judge(const Flyer* flyer, MemberRecord& record) const {
     if (record.verdict == Verdict::kFailed) return true;
     const Clock::time_point start = Clock::now();
+    bool is_done = true;
+    if (run_.is_twin(record.member))
+      is_done = judge_twin(record);
+    else if (!flyer->is_surely_resolved())
+      is_done = judge_resolution_of(flyer->bundle(), record);
+    record.seconds += std::chrono::duration<double>(Clock::now() - start).count();
+    return is_done;
+  }
+
+  bool judge_twin(MemberRecord& record) const {
     MemberSpec spec = run_.compile(record.member, true);
     if (!spec.bundle) {
       add_reason(record.reason, "not flown by both engines: " + spec.refusal);
@@ -142,7 +165,16 @@ class Squad {
     if (found.verdict == Verdict::kInterrupted) return false;
     record.twin = record.verdict = found.verdict;
     add_reason(record.reason, found.reason);
-    record.seconds += std::chrono::duration<double>(Clock::now() - start).count();
+    return true;
+  }
+
+  bool judge_resolution_of(const Bundle& bundle, MemberRecord& record) const {
+    RunOptions alone = options_;
+    alone.mujoco = false;
+    const Member member = run_member(bundle, alone);
+    if (member.interrupted()) return false;
+    if (member.unresolved()) record.verdict = Verdict::kUnresolved;
+    add_reason(record.reason, unresolved_words(member));
     return true;
   }
 
@@ -169,8 +201,7 @@ RunOptions of_a_member(RunOptions options) {
 TwinFinding twin_finding(const Member& member) {
   TwinFinding found{member.verdict(), {}};
   for (const EngineRun& engine : member.engines) add_reason(found.reason, engine.reason);
-  if (found.verdict == Verdict::kUnresolved)
-    for (const std::string& reason : member.resolution->reasons) add_reason(found.reason, reason);
+  add_reason(found.reason, unresolved_words(member));
   for (const JudgedFigure& figure : member.exceeded())
     add_reason(found.reason, fmt::format("{} {:.3g} exceeds {:.3g}", figure.key, figure.maximum,
                                          figure.tolerance));

@@ -29,6 +29,15 @@ double error_after(Complex log_R, Complex z, double n) {
   return std::abs(found - exact);
 }
 
+/// Of |a^n - b^n|, which is |a - b| times n products of n - 1 factors.
+/// @param difference  |a - b|
+/// @param largest     of |a| and |b|
+double bound_after(double difference, double largest, double steps) {
+  steps = std::max(1.0, std::floor(steps));
+  return difference * (largest < 1.0 ? std::min(steps, 1.0 / (1.0 - largest))
+                                     : steps * std::pow(largest, steps - 1.0));
+}
+
 }  // namespace
 
 Complex amplification(const Tableau& tableau, Complex z) {
@@ -72,6 +81,22 @@ double mode_error(const Tableau& tableau, Complex s, double h, double duration) 
     worst = std::max(worst, error_after(log_R, z, n));
   }
   return std::min(worst, kHopeless);
+}
+
+double mode_error_bound(const Tableau& tableau, Complex s, double h, double duration) {
+  const Complex z = h * s;
+  const double true_growth = std::exp(std::max(0.0, z.real()));
+  const Complex found = amplification(tableau, z) / true_growth;
+  const Complex exact = std::polar(std::exp(std::min(0.0, z.real())), z.imag());
+  return bound_after(std::abs(found - exact), std::max(std::abs(found), std::abs(exact)),
+                     duration / h);
+}
+
+double fastest_mode_error_bound(const Tableau& tableau, double rate, double h, double duration) {
+  const double y = h * rate;
+  const int next = tableau.order + 1;
+  const double rest = std::pow(y, next) / std::tgamma(next + 1.0) * std::exp(y);
+  return bound_after(rest, 1.0 + rest, duration / h);
 }
 
 double step_for_mode_error(const Tableau& tableau, Complex s, double h, double duration,

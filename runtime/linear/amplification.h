@@ -23,6 +23,12 @@ double stability_limit(const Tableau& tableau, Complex s);
 /// maximum of |R(h s)^n - exp(n h s)| over n. True growth (Re s > 0) is divided out.
 double mode_error(const Tableau& tableau, Complex s, double h, double duration);
 
+/// No less than mode_error(), and a hundredth of its cost. It is near while it is small.
+double mode_error_bound(const Tableau& tableau, Complex s, double h, double duration);
+/// The same of any mode that is no faster than `rate` [rad/s].
+/// @pre R is the exponential cut at the order of the method: none with a step of its own
+double fastest_mode_error_bound(const Tableau& tableau, double rate, double h, double duration);
+
 /// The largest step [s] up to `h` whose mode_error() stays within `limit`.
 double step_for_mode_error(const Tableau& tableau, Complex s, double h, double duration,
                            double limit);

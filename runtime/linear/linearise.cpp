@@ -158,6 +158,14 @@ Eigen::MatrixXd OwnMotion::jacobian(const Observation& seen, double held_at) {
   return A;
 }
 
+std::optional<Eigen::VectorXcd> eigenvalues(const Eigen::MatrixXd& A) {
+  if (!A.allFinite()) return std::nullopt;
+  if (A.rows() == 0) return Eigen::VectorXcd();
+  const Eigen::EigenSolver<Eigen::MatrixXd> solver(A, false);
+  if (solver.info() != Eigen::Success) return std::nullopt;
+  return solver.eigenvalues();
+}
+
 std::vector<Mode> decompose(const OwnMotion& motion, const Eigen::MatrixXd& A,
                             const Eigen::VectorXd& drive, double slowest) {
   if (A.rows() == 0 || !A.allFinite() || !drive.allFinite()) return {};

@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 #include <complex>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -60,6 +61,13 @@ class OwnMotion {
   std::vector<std::string> coordinates_;
   Eigen::VectorXd derivative_;
 };
+
+/// The eigenvalues of more take seconds an instant: whoever may be asked of a vehicle with more
+/// states does without modes.
+inline constexpr int kMostStates = 600;
+
+/// Of A; nothing where it is not finite, or where they are not found.
+std::optional<Eigen::VectorXcd> eigenvalues(const Eigen::MatrixXd& A);
 
 /// The modes of A, with weights eta of `drive` = sum of eta times shape (least squares). Slower
 /// modes than `slowest` [rad/s] are left out.

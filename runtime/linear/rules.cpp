@@ -25,7 +25,6 @@ constexpr double kLeastTravel = 1.0;       // [m]
 constexpr double kEnergyLimit = 0.1;       // of what is exchanged
 constexpr double kLeastMotion = 1.0e-6;    // [rad] or [m]: less is no motion
 constexpr double kSlowest = 1.0e-3;        // a mode slower than this over the run is no mode
-constexpr int kMostStates = 600;           // the eigenvalues of more take seconds an instant
 // Beyond this many states events are not looked at one by one: an instant costs a tenth of a
 // second.
 constexpr int kManyStates = 120;

@@ -36,6 +36,7 @@ class Watched {
     end_.failure = std::move(what);
     flies_ = false;
   }
+  void accept(const AcceptedErrors& errors) { end_.accepted = errors; }
   void interrupt() {
     end_.is_interrupted = true;
     flies_ = false;
@@ -64,6 +65,7 @@ void fly_alone(Watched& one, const FleetOptions& options) {
       if (due.at(flight.time()) || flight.done()) sample();
     }
     if (one.flies() && !flight.done()) one.interrupt();
+    one.accept(flight.accepted());
   } catch (const NumericalFailure& failure) {
     one.fail(failure.what());
   }

@@ -12,6 +12,7 @@
 #include "compiler/ir/bundle.h"
 #include "runtime/bsm/kernel.h"
 #include "runtime/engine/observation.h"
+#include "runtime/integrate/step_control.h"
 
 namespace twincraft {
 
@@ -23,9 +24,10 @@ struct FleetMember {
 };
 
 struct FleetEnd {
-  double time = 0.0;            // [s] of the last sample
-  std::string failure = {};     // numerical: what, when and which coordinate; empty: none
-  bool is_interrupted = false;  // by `stop`
+  double time = 0.0;             // [s] of the last sample
+  std::string failure = {};      // numerical: what, when and which coordinate; empty: none
+  bool is_interrupted = false;   // by `stop`
+  AcceptedErrors accepted = {};  // of an adaptive method
 };
 
 struct FleetOptions {

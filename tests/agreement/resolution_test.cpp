@@ -185,6 +185,17 @@ TEST_P(Resolution, AdvisesAStepThatResolves) {
   EXPECT_EQ(after["members"][0]["resolution"]["resolved"], true) << last.out;
 }
 
+// A member of a campaign that one engine flies is told apart by bounds, and judged where these do
+// not settle it: its row says what a run says.
+TEST_P(Resolution, IsJudgedOfAMemberOfACampaignAsOfARun) {
+  const Case& one = GetParam();
+  const std::string campaign =
+      "campaign: {members: 2, dispersions: [{set: hub.mass, choice: {values: [100 %]}}]}\n";
+  const json report = run(text_of(one) + campaign, {"--engine", "bsm"});
+  EXPECT_EQ(report["verdict"], one.verdict == "resolved" ? "not_judged" : one.verdict);
+  EXPECT_EQ(last.exit_code, exit_code(one.verdict)) << last.out;
+}
+
 class Failure : public Runs, public testing::Test {
  protected:
   /// A tank that is drained but for a little, while its slosh keeps spring and damper.

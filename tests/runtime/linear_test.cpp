@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 #include "runtime/linear/advice.h"
 #include "runtime/linear/amplification.h"
@@ -92,6 +93,34 @@ TEST(ModeError, IsMetByTheStepThatIsFoundForIt) {
   const double h = step_for_mode_error(kRk4, s, 0.1, 20.0, 0.01);
   EXPECT_LT(h, 0.02);
   EXPECT_NEAR(mode_error(kRk4, s, h, 20.0), 0.01, 2.0e-4);
+}
+
+/// Modes in every direction, growing ones too.
+std::vector<Complex> modes(double rate) {
+  std::vector<Complex> all;
+  for (double angle = 0.0; angle <= 3.2; angle += 0.1) all.push_back(std::polar(rate, angle));
+  return all;
+}
+
+TEST(ModeErrorBound, IsNoLessThanTheError) {
+  for (const Tableau* tableau : {&kEuler, &kRk2, &kRk4})
+    for (const double duration : {0.3, 10.0, 1000.0})
+      for (const double rate : {1.0e-4, 0.01, 0.3, 2.0, 10.0, 29.0})
+        for (const Complex s : modes(rate)) {
+          const double error = mode_error(*tableau, s, 0.1, duration);
+          const double bound = mode_error_bound(*tableau, s, 0.1, duration);
+          EXPECT_GE(bound, error * (1.0 - 1.0e-9) - 1.0e-9) << s << " " << duration;
+          const double farther = fastest_mode_error_bound(*tableau, 1.01 * rate, 0.1, duration);
+          EXPECT_GE(farther, bound * (1.0 - 1.0e-9) - 1.0e-9) << s << " " << duration;
+        }
+}
+
+TEST(ModeErrorBound, IsNearTheErrorWhileThatIsSmall) {
+  for (const double rate : {0.5, 1.0, 2.0}) {
+    const double error = mode_error(kRk4, Complex(0.0, rate), 0.1, 60.0);
+    EXPECT_LT(mode_error_bound(kRk4, Complex(0.0, rate), 0.1, 60.0), 1.05 * error);
+    EXPECT_LT(fastest_mode_error_bound(kRk4, rate, 0.1, 60.0), 1.3 * error);
+  }
 }
 
 TEST(Advice, RoundsAStepDownToOneTwoOrFive) {
