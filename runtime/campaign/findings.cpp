@@ -40,6 +40,16 @@ std::vector<WorstMember> worst_members(const CampaignTable& table, std::size_t o
   return worst;
 }
 
+UnresolvedMembers find_unresolved(const CampaignTable& table) {
+  UnresolvedMembers found;
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    if (table.verdict(row) != Verdict::kUnresolved) continue;
+    if (found.members.empty()) found.reason = table.reason(row);
+    found.members.push_back(table.members()[row]);
+  }
+  return found;
+}
+
 CampaignFindings find_all(const MergedCampaign& campaign, const CampaignPlan& plan,
                           const std::vector<bool>& independent) {
   const CampaignTable& table = campaign.table;
@@ -54,6 +64,7 @@ CampaignFindings find_all(const MergedCampaign& campaign, const CampaignPlan& pl
       one.worst = worst_members(table, i, kWorstShown);
   }
   found.failures = failures(table);
+  found.unresolved = find_unresolved(table);
   found.twins = find_twins(table);
   return found;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "runtime/campaign/drivers.h"
@@ -29,10 +30,18 @@ struct OutputFindings {
       worst;  // empty: nothing is required of the output, nothing is kept by it
 };
 
+/// Members that their step does not resolve: what they show says nothing of the vehicle.
+struct UnresolvedMembers {
+  std::vector<std::size_t> members;  // rising
+  std::string reason;                // of the first
+};
+UnresolvedMembers find_unresolved(const CampaignTable& table);
+
 struct CampaignFindings {
   std::size_t flown = 0;                // members
   std::vector<OutputFindings> outputs;  // one per column
   std::vector<ReasonCount> failures;    // of the members that were not flown
+  UnresolvedMembers unresolved;
   TwinFindings twins;
 };
 /// Takes about a second for 100,000 members with ten drawn numbers and three outputs.

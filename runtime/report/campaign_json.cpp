@@ -14,7 +14,7 @@ using Json = nlohmann::ordered_json;
 
 // Beyond these a list names no more: the rows of campaign.csv do.
 constexpr std::size_t kMostRanges = 1000;
-constexpr std::size_t kMostDisagreeing = 1000;
+constexpr std::size_t kMostMembers = 1000;
 constexpr std::size_t kMostReasons = 100;
 
 template <typename T>
@@ -116,7 +116,7 @@ Json twins_json(const TwinFindings& twins, const std::vector<DrawnNumber>& drawn
             {"agree", twins.count.agree},
             {"disagree", twins.count.disagree},
             {"interval", interval_json(twins.interval)},
-            {"members", first_of(twins.disagreeing, kMostDisagreeing)},
+            {"members", first_of(twins.disagreeing, kMostMembers)},
             {"driver", nullptr}};
   if (const auto& driver = twins.driver)
     json["driver"] = {{"name", drawn[driver->drawn].name},
@@ -130,6 +130,12 @@ Json failures_json(const std::vector<ReasonCount>& failures) {
   for (const ReasonCount& one : first_of(failures, kMostReasons))
     json.push_back({{"reason", one.reason}, {"count", one.count}, {"first", one.first}});
   return json;
+}
+
+Json unresolved_json(const UnresolvedMembers& unresolved) {
+  return {{"count", unresolved.members.size()},
+          {"members", first_of(unresolved.members, kMostMembers)},
+          {"reason", unresolved.reason}};
 }
 
 /// Null where nobody knows it.
@@ -171,6 +177,7 @@ Json campaign_value(const CampaignReport& report) {
           {"outputs", outputs_json(report)},
           {"twins", twins_json(report.findings.twins, header.drawn)},
           {"failures", failures_json(report.findings.failures)},
+          {"unresolved", unresolved_json(report.findings.unresolved)},
           {"worst", worst_json(report)},
           {"kept", kept_json(report)},
           {"remarks", report.campaign.remarks}};

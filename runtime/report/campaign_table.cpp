@@ -106,6 +106,12 @@ std::string failures_block(const std::vector<ReasonCount>& failures) {
   return text;
 }
 
+std::string unresolved_line(const UnresolvedMembers& unresolved) {
+  if (unresolved.members.empty()) return {};
+  return fmt::format("  {} unresolved: {} (first: member {})\n", unresolved.members.size(),
+                     unresolved.reason, unresolved.members.front());
+}
+
 std::string twins_line(const TwinCount& count) {
   if (count.flown == 0) return {};
   return fmt::format("  flown by both engines: {}; agree: {}; disagree: {}\n", count.flown,
@@ -119,7 +125,7 @@ std::string campaign_table(const CampaignReport& report) {
   std::string text = fmt::format("{}: {} of {} members flown\n\n", campaign.table.header().name,
                                  report.findings.flown, campaign.members);
   text += outputs_block(report) + drivers_block(report) + worst_block(report) +
-          failures_block(report.findings.failures);
+          failures_block(report.findings.failures) + unresolved_line(report.findings.unresolved);
   if (!campaign.missing.empty())
     text += fmt::format("  missing: members {}\n", range_words(campaign.missing));
   text += twins_line(report.findings.twins.count);

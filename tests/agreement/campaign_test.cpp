@@ -252,6 +252,42 @@ TEST_F(ScsimCampaign, NamesBrokenRequirementsAndLeavesTheVerdicts) {
   EXPECT_EQ(report("out")["campaign"]["outputs"][0]["pass"]["flown"]["passed"], 40 - broken);
 }
 
+// rk4 at 0.02 s follows the panel of 3e4 N m/rad, which a bound does not tell, and not that of 5e4.
+TEST_F(ScsimCampaign, SaysOfEveryMemberWhetherItsStepResolvesIt) {
+  const Flags stiff = joined(
+      kPlain, {"--set", "campaign.outputs.peak.require=null", "--set",
+               "campaign.dispersions=[{set: panels.wing_p.stiffness, choice: {values: [150, 3e4, "
+               "5e4]}}]"});
+  const ProgramResult result = fly("one", joined(stiff, {"--jobs", "1"}));
+  EXPECT_EQ(result.exit_code, 1) << result.err;
+  std::vector<std::size_t> unresolved;
+  for (std::size_t member = 0; member < 40; ++member) {
+    const bool is_stiff = cell("one", member, "panels.wing_p.stiffness [N m/rad]") == "50000";
+    if (is_stiff) unresolved.push_back(member);
+    EXPECT_EQ(cell("one", member, "verdict"), is_stiff ? "unresolved" : "not_judged") << member;
+    EXPECT_THAT(cell("one", member, "reason"),
+                is_stiff ? testing::Matcher<std::string>(
+                               AllOf(StartsWith("wing_p.1 swings at 29.3 rad/s"),
+                                     testing::EndsWith(" --step '10 ms' resolves it")))
+                         : IsEmpty());
+  }
+  ASSERT_GT(unresolved.size(), 5U);
+  ASSERT_LT(unresolved.size(), 35U);
+  EXPECT_EQ(report("one")["verdict"], "unresolved");
+  const json found = report("one")["campaign"]["unresolved"];
+  EXPECT_EQ(found["members"], json(unresolved));
+  EXPECT_EQ(found["reason"], cell("one", unresolved.front(), "reason"));
+  EXPECT_THAT(result.out, HasSubstr(std::to_string(unresolved.size()) + " unresolved: wing_p.1 "));
+  for (const char* shard : {"2/3", "1/3", "3/3"})
+    fly("three", joined(stiff, {"--shard", shard, "--jobs", "2"}));
+  EXPECT_EQ(merge("three").exit_code, 1);
+  EXPECT_EQ(table("three"), table("one"));
+  EXPECT_EQ(fly("said", joined(stiff, {"--set", "simulation.resolution=report"})).exit_code, 0);
+  EXPECT_EQ(cell("said", unresolved.front(), "verdict"), "not_judged");
+  EXPECT_EQ(cell("said", unresolved.front(), "reason"), found["reason"]);
+  EXPECT_EQ(fly("short", joined(stiff, {"--set", "simulation.step=10 ms"})).exit_code, 0);
+}
+
 TEST_F(ScsimCampaign, KeepsAFailureToTheMemberThatHasIt) {
   const ProgramResult result = fly("out", kFailing);
   EXPECT_EQ(result.exit_code, 4);

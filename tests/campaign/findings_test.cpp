@@ -48,6 +48,21 @@ TEST(WorstMembers, AreThoseNearestToTheBoundOrBeyondIt) {
               ElementsAre(1u, 2u, 0u));
 }
 
+TEST(UnresolvedMembers, AreListedWithTheReasonOfTheFirst) {
+  RecordsHeader header;
+  CampaignTable table(header);
+  for (std::size_t member = 0; member < 4; ++member) {
+    MemberRecord record;
+    record.member = member;
+    if (member % 2 == 1) record.verdict = Verdict::kUnresolved;
+    record.reason = "reason " + std::to_string(member);
+    table.add(record);
+  }
+  const UnresolvedMembers found = find_unresolved(table);
+  EXPECT_THAT(found.members, ElementsAre(1u, 3u));
+  EXPECT_EQ(found.reason, "reason 1");
+}
+
 TEST(WorstMembers, SayWhetherTheRequirementHolds) {
   const std::vector<WorstMember> worst = worst_members(table_of({3.0, 5.0}, 4.5, {}), 0, 5);
   ASSERT_EQ(worst.size(), 2u);  // the failed member does not count

@@ -149,6 +149,16 @@ describe("a campaign's page", () => {
     await page.context().close();
   });
 
+  test("names the members that are not resolved, and why the first is not", async () => {
+    const { page } = await changed("unresolved-campaign", (campaign) => {
+      campaign.unresolved = { count: 2, members: [3, 17], reason: "w.1 swings at 26.6 rad/s" };
+    });
+    const said = await page.textContent("#not-resolved");
+    assert.match(said, /does not resolve members 3, 17\./);
+    assert.match(said, /Member 3: w\.1 swings at 26\.6 rad\/s\./);
+    await page.context().close();
+  });
+
   test("takes names for text, whatever they are", async () => {
     const hostile = "<img src=x onerror=alert(1)></script>\"'";
     const { page, complaints } = await changed("hostile-campaign", (campaign, data) => {
@@ -158,6 +168,7 @@ describe("a campaign's page", () => {
       data.scatter.drawn = Object.fromEntries(Object.entries(data.scatter.drawn).map(([name, text]) => [hostile + name, text]));
       for (const one of campaign.worst) Object.assign(one, { output: hostile + "0", command: hostile });
       campaign.failures = [{ reason: hostile, count: 1, first: 3 }];
+      campaign.unresolved = { count: 1, members: [3], reason: hostile };
       campaign.remarks = [hostile];
     });
     assert.deepEqual(complaints, []);

@@ -96,6 +96,18 @@ TEST(CampaignTableText, ShowsSpreadRequirementsAndFailures) {
       "  flown by both engines: 1; agree: 1; disagree: 0\n");
 }
 
+TEST(CampaignTableText, CountsMembersThatAreNotResolved) {
+  std::vector<MemberRecord> records{member_record(0), member_record(1), member_record(2)};
+  EXPECT_THAT(text_of(merged(records, 3)), Not(HasSubstr("unresolved")));
+  for (MemberRecord* record : {&records[1], &records[2]}) {
+    record->verdict = Verdict::kUnresolved;
+    record->reason = "w.1 swings at 26.6 rad/s. --step '5 ms' resolves it";
+  }
+  EXPECT_THAT(text_of(merged(records, 3)),
+              HasSubstr("\n  2 unresolved: w.1 swings at 26.6 rad/s. --step '5 ms' resolves it "
+                        "(first: member 1)\n"));
+}
+
 TEST(CampaignTableText, NamesDriversWithTheirIndicesAndTheCommandOfTheWorst) {
   CampaignReport report = test::campaign_report(300);
   const OutputFindings& peak = report.findings.outputs[0];

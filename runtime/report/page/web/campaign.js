@@ -198,6 +198,14 @@ function failuresSection() {
       failures.map((/** @type {any} */ f) => ({ label: f.reason || "no reason given", cells: [{ value: f.count, text: String(f.count), kind: "number" }, { value: f.first, text: String(f.first), kind: "number" }] }))));
 }
 
+function unresolvedSection() {
+  const { unresolved } = campaign;
+  if (unresolved.count === 0) return null;
+  return section("Not resolved", note("What these members show says nothing of the vehicle: their step is too long for it."),
+    html("p", { class: "problem" }, `The step does not resolve ${unresolved.count === 1 ? "member" : "members"} ${listed(unresolved.members, unresolved.count)}.`),
+    html("p", {}, `Member ${unresolved.members[0]}: ${unresolved.reason}.`));
+}
+
 /** @param {string | null} command @returns {Cell} */
 const commandCell = (command) => (command === null ? textCell("–") : { node: html("code", {}, command), kind: "text" });
 
@@ -234,6 +242,7 @@ function composeCampaign() {
     ...part("Drivers", () => [driversSection()]),
     ...part("Engines", () => [twinsSection()]),
     ...part("Not flown", () => [failuresSection()]),
+    ...part("Not resolved", () => [unresolvedSection()]),
     ...part("Members to look at", () => [worstSection()]),
     html("p", { class: "note" }, "Every member is a row of campaign.csv and of campaign.nc."),
   ].filter((node) => node !== null)));
