@@ -139,7 +139,11 @@ class Campaign {
     const CampaignShards shards(request_.folder);
     const Shard own = request_.shard.value_or(Shard{});
     CampaignShards::Found found{.done = std::vector<bool>(plan_.members)};
-    if (request_.resume) found = shards.find(header_, own, plan_.members);
+    if (request_.resume)
+      found = shards.find(header_, own, plan_.members, [this](const MemberRecord& record) {
+        note(record);
+        ++result_.resumed;
+      });
     result_.error = found.error;
     if (failed()) return;
     const std::optional<MergedCampaign> elsewhere =
@@ -153,7 +157,6 @@ class Campaign {
       result_.error = write_files({{shards.spec().string(), compiled_.bundle.text(kResolved)}});
       if (failed()) return;
       take_records(*elsewhere, found.done, sink);
-      result_.resumed = std::ranges::count(found.done, true);
       fly_members(members_to_fly(own, found.done), sink);
       result_.error = sink.error();
       if (failed()) return;
@@ -170,7 +173,10 @@ class Campaign {
     for (std::size_t row = 0; row < members.size(); ++row) {
       if (members[row] >= done.size() || done[members[row]]) continue;
       done[members[row]] = true;
-      sink.take(elsewhere.table.record(row));
+      const MemberRecord record = elsewhere.table.record(row);
+      sink.take(record);
+      note(record);
+      ++result_.resumed;
     }
   }
 

@@ -38,7 +38,7 @@ struct CampaignResult {
   // Of all members there are records of; nothing of a shard, or where there are none.
   std::optional<CampaignReport> report = {};
   std::size_t flown = 0, resumed = 0;     // members, by this run and before it
-  Verdict verdict = Verdict::kAgree;      // of those that this is about
+  Verdict verdict = Verdict::kAgree;      // of both
   bool breaks_requirements = false;       // one of them does
   bool is_interrupted = false;            // by a signal
   std::string error = {};                 // of files, or of what they hold: exit 3

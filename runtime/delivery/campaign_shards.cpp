@@ -34,10 +34,14 @@ bool is_of_a_shard(std::string_view name) {
   return number_of(name.substr(0, of)) && number_of(name.substr(of + kOf.size()));
 }
 
-/// Marks the members of one file.
-void mark(RecordReader& reader, CampaignShards::Found& found) {
-  for (MemberRecord record; reader.next(record);)
-    if (record.member < found.done.size()) found.done[record.member] = true;
+/// Marks the members of one file. @param take  is given those that were not marked
+void mark(RecordReader& reader, CampaignShards::Found& found,
+          const std::function<void(const MemberRecord&)>& take) {
+  for (MemberRecord record; reader.next(record);) {
+    if (record.member >= found.done.size() || found.done[record.member]) continue;
+    found.done[record.member] = true;
+    take(record);
+  }
 }
 
 }  // namespace
@@ -73,9 +77,13 @@ std::vector<fs::path> CampaignShards::files() const {
   return files;
 }
 
-CampaignShards::Found CampaignShards::find(const RecordsHeader& header, const Shard& own,
-                                           std::size_t members) const {
+CampaignShards::Found CampaignShards::find(
+    const RecordsHeader& header, const Shard& own, std::size_t members,
+    const std::function<void(const MemberRecord&)>& take) const {
   Found found{.done = std::vector<bool>(members)};
+  const auto take_own = [&](const MemberRecord& record) {
+    if (take && own.takes(record.member)) take(record);
+  };
   for (const fs::path& path : files()) {
     std::ifstream in(path, std::ios::binary);
     RecordReader reader(in);
@@ -86,7 +94,7 @@ CampaignShards::Found CampaignShards::find(const RecordsHeader& header, const Sh
       found.error = fmt::format("{}: {}", in_backticks(path.string()), why);
       return found;
     }
-    mark(reader, found);
+    mark(reader, found, take_own);
     if (path != path_of(own)) continue;
     found.whole_bytes = reader.whole_bytes();
     found.has_header = reader.header().has_value();

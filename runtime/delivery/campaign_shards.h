@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -42,7 +43,9 @@ class CampaignShards {
     bool has_header = false;
     std::optional<std::size_t> members = {};
   };
-  Found find(const RecordsHeader& header, const Shard& own, std::size_t members) const;
+  /// @param take  is given every record of a member of `own`, each member once
+  Found find(const RecordsHeader& header, const Shard& own, std::size_t members,
+             const std::function<void(const MemberRecord&)>& take = {}) const;
 
   /// How many members the campaign has, by the largest number that a part says; 0: there is none.
   std::size_t members() const;

@@ -406,8 +406,21 @@ TEST_F(ScsimCampaign, FliesAgainFromADamagedRecordOn) {
 
 TEST_F(ScsimCampaign, KeepsWhatIsDoneOfAShard) {
   EXPECT_THAT(fly("out", joined(kPlain, {"--shard", "1/4"})).out, "10 members flown\n");
+  fly("out", joined(kPlain, {"--shard", "2/4"}));  // whose members are not of the first
   EXPECT_THAT(fly("out", joined(kPlain, {"--shard", "1/4", "--resume"})).out,
               "0 members flown, 10 were there\n");
+}
+
+// A task that was requeued says of its shard what it would have said at once.
+TEST_F(ScsimCampaign, EndsAResumedShardByAllThatItHas) {
+  for (const auto& [flags, code] : {std::pair(kPlain, 1), std::pair(kFailing, 4)}) {
+    const Flags shard = joined(flags, {"--shard", "1/2", "--resume"});
+    const std::string out = "out" + std::to_string(code);
+    EXPECT_EQ(fly(out, shard).exit_code, code);
+    const ProgramResult again = fly(out, shard);
+    EXPECT_EQ(again.out, "0 members flown, 20 were there\n");
+    EXPECT_EQ(again.exit_code, code);
+  }
 }
 
 TEST_F(ScsimCampaign, RefusesFilesOfAnotherProgram) {

@@ -116,6 +116,22 @@ TEST_F(CampaignFolder, FindsTheMembersOfAllShardsAndTheEndOfItsOwn) {
   EXPECT_THAT(shards.find(campaign_header(), {2, 2}, 1).done, ElementsAre(true));
 }
 
+TEST_F(CampaignFolder, GivesTheRecordsOfAShardOnce) {
+  write({1, 2}, {0, 2, 4, 9}, 6);
+  write({2, 2}, {1, 3}, 6);
+  write({1, 1}, {0, 1}, 6);  // flown before there were two shards
+  const auto taken = [this](const Shard& own) {
+    std::vector<std::size_t> members;
+    shards.find(campaign_header(), own, 6,
+                [&](const MemberRecord& record) { members.push_back(record.member); });
+    std::ranges::sort(members);
+    return members;
+  };
+  EXPECT_THAT(taken({1, 2}), ElementsAre(0, 2, 4));
+  EXPECT_THAT(taken({2, 2}), ElementsAre(1, 3));
+  EXPECT_THAT(taken({2, 3}), ElementsAre(1, 4));
+}
+
 TEST_F(CampaignFolder, GoesOnBehindWhatIsWhole) {
   write({}, {0, 1}, 4);
   const std::string whole = read({});
