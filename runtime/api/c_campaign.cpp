@@ -97,6 +97,7 @@ void fly_into(tc_run& handle, const tc_campaign_options& wanted) {
     CampaignRequest request = request_of(wanted);
     FlownCampaign flown = place_of(wanted);
     request.folder = flown.folder.string();
+    flown.folder = std::filesystem::absolute(flown.folder);  // the program may go elsewhere
     request.options.stop = &stop;
     flown.shard = request.shard.value_or(Shard{});
     if (std::string error = try_files(campaign_paths(request.folder)); !error.empty())

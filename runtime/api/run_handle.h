@@ -50,7 +50,7 @@ void attend(const Options& wanted, const Work& work) {
 
 }  // namespace twincraft::api
 
-/// Of the four one, and the texts that were asked for.
+/// A run, a campaign, a proof or an attribution, and the texts that were asked for.
 struct tc_run {
   std::shared_ptr<const twincraft::api::CompiledModel> model;
   std::optional<twincraft::SpecRun> run;

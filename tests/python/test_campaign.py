@@ -120,9 +120,11 @@ def test_saved_files_are_those_of_the_program(flown, program, tmp_path):
     assert_same(tmp_path / "out", program)
 
 
-def test_files_of_a_folder_are_those_of_the_program(model, program, tmp_path):
-    campaign = model.campaign(folder=tmp_path / "out", jobs=1)
+def test_files_of_a_folder_are_those_of_the_program(model, program, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    campaign = model.campaign(folder="out", jobs=1)
     assert_same(tmp_path / "out", program)
+    monkeypatch.chdir(ROOT)
     campaign.save(tmp_path / "again")
     assert_same(tmp_path / "again", program)
 
@@ -409,6 +411,20 @@ def test_a_killed_process_breaks_its_pool_and_nothing_is_written(model, flown, t
     assert not list(tmp_path.iterdir())
     with ProcessPoolExecutor(2) as another:
         assert table_of(model.campaign(another, tasks=6)) == table_of(flown)
+
+
+def test_ctrl_c_gives_up_the_tasks(model, tmp_path):
+    def interrupt(*how: Any) -> bytes:
+        if how[1] == 2:
+            raise KeyboardInterrupt
+        return campaign._fly_shard(*how)
+
+    with ThreadPoolExecutor(1) as threads:
+        executor = Instead(threads, interrupt)
+        with pytest.raises(KeyboardInterrupt) as caught:
+            model.campaign(executor, tasks=40, folder=tmp_path)
+    assert "1 of 40 tasks" in caught.value.__notes__[0]
+    assert any(future.cancelled() for future in executor.futures) and not list(tmp_path.iterdir())
 
 
 def test_a_worker_of_another_version_is_refused(model):
