@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -74,35 +75,8 @@ std::vector<std::size_t> members_to_fly(const Shard& shard, const std::vector<bo
   return members;
 }
 
-/// Where records go as they come.
-class RecordSink {
- public:
-  virtual ~RecordSink() = default;
-  virtual void take(const MemberRecord& record) = 0;
-  virtual std::string error() const = 0;
-};
-
-class ToFile final : public RecordSink {
- public:
-  ToFile(const fs::path& path, const CampaignShards::Found& found, const RecordsHeader& header,
-         std::size_t members)
-      : file_(path, found, header, members) {}
-  void take(const MemberRecord& record) override { file_.append(record); }
-  std::string error() const override { return file_.error(); }
-
- private:
-  ShardFile file_;
-};
-
-class ToTable final : public RecordSink {
- public:
-  explicit ToTable(CampaignTable& table) : table_(table) {}
-  void take(const MemberRecord& record) override { table_.add(record); }
-  std::string error() const override { return {}; }
-
- private:
-  CampaignTable& table_;
-};
+/// Takes the records as they come. @return false: it can take no more
+using TakeRecord = std::function<bool(const MemberRecord& record)>;
 
 /// A campaign on its way.
 class Campaign {
@@ -116,8 +90,11 @@ class Campaign {
   CampaignResult fly() {
     if (request_.folder.empty()) {
       CampaignTable table(header_);
-      ToTable sink(table);
-      fly_members(members_to_fly({}, std::vector<bool>(plan_.members)), sink);
+      fly_members(members_to_fly({}, std::vector<bool>(plan_.members)),
+                  [&table](const MemberRecord& record) {
+                    table.add(record);
+                    return true;
+                  });
       settle(std::move(table));
     } else {
       fly_into_folder();
@@ -137,7 +114,15 @@ class Campaign {
 
   void fly_into_folder() {
     const CampaignShards shards(request_.folder);
-    const Shard own = request_.shard.value_or(Shard{});
+    fly_shard(shards, request_.shard.value_or(Shard{}));
+    if (failed()) return;
+    if (request_.shard) return conclude_shard();
+    std::optional<MergedCampaign> merged = shards.merge(result_.error);
+    if (merged) finish(*std::move(merged));
+  }
+
+  /// Those of its members that its file does not have.
+  void fly_shard(const CampaignShards& shards, const Shard& own) {
     CampaignShards::Found found{.done = std::vector<bool>(plan_.members)};
     if (request_.resume)
       found = shards.find(header_, own, plan_.members, [this](const MemberRecord& record) {
@@ -149,38 +134,35 @@ class Campaign {
     const std::optional<MergedCampaign> elsewhere =
         merge_records(header_, request_.records, result_.error);
     if (failed()) return;
-    {
-      ToFile sink(shards.path_of(own), found, header_, plan_.members);
-      result_.error = sink.error();
-      if (failed()) return;
-      if (!request_.resume && !request_.shard) shards.remove_others(own);
-      result_.error = write_files({{shards.spec().string(), compiled_.bundle.text(kResolved)}});
-      if (failed()) return;
-      take_records(*elsewhere, found.done, sink);
-      fly_members(members_to_fly(own, found.done), sink);
-      result_.error = sink.error();
-      if (failed()) return;
-    }
-    if (request_.shard) return conclude_shard();
-    std::optional<MergedCampaign> merged = shards.merge(result_.error);
-    if (merged) finish(*std::move(merged));
+    ShardFile file(shards.path_of(own), found, header_, plan_.members);
+    result_.error = file.error();
+    if (failed()) return;
+    if (!request_.resume && !request_.shard) shards.remove_others(own);
+    result_.error = write_files({{shards.spec().string(), compiled_.bundle.text(kResolved)}});
+    if (failed()) return;
+    take_records(*elsewhere, found.done, file);
+    fly_members(members_to_fly(own, found.done), [&file](const MemberRecord& record) {
+      file.append(record);
+      return file.error().empty();
+    });
+    result_.error = file.error();
   }
 
   /// What was flown elsewhere and is not there yet. @param done  by member: so are they then
-  void take_records(const MergedCampaign& elsewhere, std::vector<bool>& done, RecordSink& sink) {
+  void take_records(const MergedCampaign& elsewhere, std::vector<bool>& done, ShardFile& file) {
     taken_remarks_ = elsewhere.remarks;
     const std::span<const std::size_t> members = elsewhere.table.members();
     for (std::size_t row = 0; row < members.size(); ++row) {
       if (members[row] >= done.size() || done[members[row]]) continue;
       done[members[row]] = true;
       const MemberRecord record = elsewhere.table.record(row);
-      sink.take(record);
+      file.append(record);
       note(record);
       ++result_.resumed;
     }
   }
 
-  void fly_members(std::vector<std::size_t> members, RecordSink& sink) {
+  void fly_members(std::vector<std::size_t> members, const TakeRecord& take) {
     bool enough = false;
     CampaignRun run;
     run.plan = plan_;
@@ -192,11 +174,10 @@ class Campaign {
       return compile(member, both ? wanted_by_run(false) : Wanted{});
     };
     run.finished = [&](const MemberRecord& record) {
-      sink.take(record);
+      const bool takes_more = take(record);
       note(record);
       ++result_.flown;
-      enough = !sink.error().empty() ||
-               (request_.stops_on_failure && record.verdict == Verdict::kFailed);
+      enough = !takes_more || (request_.stops_on_failure && record.verdict == Verdict::kFailed);
     };
     run.enough = [&enough] { return enough; };
     run_campaign(run, request_.options);
