@@ -12,6 +12,7 @@
 #include "compiler/emit/json.h"
 #include "compiler/emit/target.h"
 #include "compiler/ir/digest.h"
+#include "compiler/member_faults.h"
 #include "compiler/schema/manual.h"
 #include "compiler/schema/partial.h"
 #include "compiler/spec/campaign_members.h"
@@ -247,28 +248,6 @@ std::optional<Bundle> bundle_of(const Spec& spec, const Origin& origin,
 
 constexpr std::size_t kEnoughFaults = 50;
 
-bool is_known(const Diagnostic& fault, const Diagnostics& diagnostics) {
-  const auto same = [&fault](const Diagnostic& other) {
-    return other.code == fault.code && other.span == fault.span && other.message == fault.message;
-  };
-  return std::any_of(diagnostics.all().begin(), diagnostics.all().end(), same);
-}
-
-bool covers(const Span& outer, const Span& inner) {
-  return inner.source == outer.source && inner.line == outer.line && inner.column >= outer.column &&
-         inner.column + inner.length <= outer.column + outer.length;
-}
-
-/// A fault of a member with notes at the values that made the member, unless one is its place.
-Diagnostic in_member(Diagnostic fault, std::size_t index, const std::vector<Override>& changes) {
-  for (const Override& change : changes) {
-    if (covers(change.value.span, fault.span) || covers(change.span, fault.span)) return fault;
-  }
-  for (const Override& change : changes)
-    fault.with_note(change.value.span, fmt::format("set by member {} of the study", index + 1));
-  return fault;
-}
-
 // So many members of a study are checked, fewer of a large spec.
 constexpr std::size_t kCheckedMembers = 10'000;
 // Checking takes about a microsecond for every three of these units: some seconds in all.
@@ -287,16 +266,6 @@ std::size_t members_to_check(const Node& base, const Spec& spec) {
   const std::size_t coordinates = model ? model->coordinates.size() : 0;
   const std::size_t work = count_values(base) + 10 * coordinates;
   return std::min(kCheckedMembers, std::max<std::size_t>(1, kCheckedWork / work));
-}
-
-/// Faults of member `index` that are not known yet.
-void take_new_faults(const Diagnostics& of_member, std::size_t index,
-                     const std::vector<Override>& changes, Diagnostics& diagnostics) {
-  for (const Diagnostic& fault : of_member.all()) {
-    // What is worth a note in one spec is not in hundreds of members.
-    if (fault.severity == Severity::kNote || is_known(fault, diagnostics)) continue;
-    diagnostics.take(in_member(fault, index, changes));
-  }
 }
 
 }  // namespace
