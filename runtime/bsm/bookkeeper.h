@@ -13,32 +13,17 @@ template <class H, class S>
 class Bookkeeper {
  public:
   /// @param state  at which the vehicle's derivative() has last been asked
-  Bookkeeper(Vehicle<H, S>& vehicle, const Number<H>* state) : vehicle_(vehicle), state_(state) {
-    hub_.dcm_WL = {{H(1.0), H(0.0), H(0.0)}, {H(0.0), H(1.0), H(0.0)}, {H(0.0), H(0.0), H(1.0)}};
-    hub_.omega = vehicle.vector(state, vehicle.layout_.omega);
-  }
+  Bookkeeper(Vehicle<H, S>& vehicle, const Number<H>* state)
+      : vehicle_(vehicle), state_(state), omega_(vehicle.vector(state, vehicle.layout_.omega)) {}
 
   BooksOf<H> books() {
     const H inner = inner_power();
     BooksOf<H> books{inner, inner, {}, {}};
     const bool changes = acts() || vehicle_.tanks_.flow();
     if (!falls() && !changes) return books;
-    dcm_NB_ = vehicle_.plan_.chart == AttitudeChart::kMrp
-                  ? Mrp<H>(state_, Layout::kAttitude).dcm_NB()
-                  : Quaternion<H>(state_, Layout::kAttitude).dcm_NB();
     const Moment<H> mass = moment();
-    const H inverse_mass = H(1.0) / mass.mass;
-    Tally<H> tally;
-    tally.r_CB = inverse_mass * mass.moment;
-    Field<H> field;
-    if (falls()) {
-      field = vehicle_.field_at(vehicle_.vector(state_, 0), dcm_NB_, tally.r_CB);
-      books.force_N = mass.mass * field.at_hub();
-      if (!changes) return books;
-      field = field.in_axes(dcm_NB_);
-    }
-    tally.v_CB = inverse_mass * momentum();
-    book_changes(field, tally, books);
+    if (falls()) books.force_N = mass.mass * fall();
+    if (changes) book_changes(mass, books);
     return books;
   }
 
@@ -62,20 +47,35 @@ class Bookkeeper {
     return sum;
   }
 
-  /// @param field  in hub axes  @param tally  knows the centre of mass
-  void book_changes(const Field<H>& field, Tally<H>& tally, BooksOf<H>& books) {
+  void book_changes(const Moment<H>& mass, BooksOf<H>& books) {
+    const H inverse_mass = H(1.0) / mass.mass;
+    Tally<H> tally;
+    tally.r_CB = inverse_mass * mass.moment;
+    tally.v_CB = inverse_mass * momentum();
+    const Mat<H> dcm_NB = vehicle_.turns_alone_ ? attitude() : vehicle_.dcm_NB_;
     if (loads_act()) tally.add_loads(loads(tally.r_CB), books);
-    if (vehicle_.has_elements_) tally.add_gravity(gravity(field), dcm_NB_, books);
-    if (vehicle_.tanks_.flow()) tally.add_leaving(leaving(field, tally.r_CB), books);
+    if (vehicle_.has_elements_) tally.add_gravity(gravity(vehicle_.field_), dcm_NB, books);
+    if (vehicle_.tanks_.flow()) tally.add_leaving(leaving(vehicle_.field_, tally.r_CB), books);
     if (loads_act() || vehicle_.tanks_.flow())
-      tally.book_driving(dcm_NB_, vehicle_.vector(state_, 3), books);
-    tally.book_own(dcm_NB_, books);
+      tally.book_driving(dcm_NB, vehicle_.vector(state_, 3), books);
+    tally.book_own(dcm_NB, books);
+  }
+  // What a vehicle that turns alone does not leave behind.
+  Vec<H> fall() const {
+    return vehicle_.turns_alone_
+               ? Field<H>(vehicle_.mu_, vehicle_.vector(state_, 0), false).at_hub()
+               : vehicle_.g_N_;
+  }
+  Mat<H> attitude() const {
+    return vehicle_.plan_.chart == AttitudeChart::kMrp
+               ? Mrp<H>(state_, Layout::kAttitude).dcm_NB()
+               : Quaternion<H>(state_, Layout::kAttitude).dcm_NB();
   }
 
   /// Lets limbs know their velocities.
   Vec<H> momentum() {
-    const Vec<S> omega = vehicle_.spread(hub_.omega);
-    Vec<H> sum = cross(hub_.omega, vehicle_.mass_.moment);
+    const Vec<S> omega = vehicle_.spread(omega_);
+    Vec<H> sum = cross(omega_, vehicle_.mass_.moment);
     const auto of = [&](auto& limb) {
       limb.trace(state_, omega);
       return limb.momentum();
@@ -89,7 +89,7 @@ class Bookkeeper {
     if (vehicle_.push_.acts()) on_hub.add(vehicle_.pushed_);
     if (vehicle_.acts_at_center_) on_hub.add(vehicle_.held_at_center_, r_CB);
     Outside<H> outside;
-    outside.add(on_hub, hub_);
+    outside.add_on_hub(on_hub, omega_);
     if (!vehicle_.acts_on_limbs_ && !vehicle_.push_.acts()) return outside;
     const Vec<S> r_CB_S = vehicle_.spread(r_CB);
     const Vec<S>* center = vehicle_.acts_at_center_ ? &r_CB_S : nullptr;
@@ -102,9 +102,9 @@ class Bookkeeper {
     for (const ElementNow<H>& element : vehicle_.elements_) {
       Pull<H> pull;
       pull.add(element.mass * field.difference(element.r_EL), element.r_EL);
-      outside.add(pull, hub_);
+      outside.add_on_hub(pull, omega_);
       if (field.has_gradient)
-        outside.add_turn(field.gradient_torque(element.r_EL, element.I), hub_);
+        outside.add_turn(field.gradient_torque(element.r_EL, element.I), omega_);
     }
     const Field<S> field_S = vehicle_.spread(field);
     add_limbs([&](const auto& limb) { return limb.gravity(field_S); }, outside);
@@ -127,7 +127,7 @@ class Bookkeeper {
   void add_leaving_hub(const Field<H>& field, Leaving<H>& sum) const {
     const LinkDrain<H, H>& draining = vehicle_.draining_;
     if (!draining.drains()) return;
-    sum.add_on_hub(draining.mass_rate(), hub_.omega);
+    sum.add_on_hub(draining.mass_rate(), omega_);
     for (std::size_t e = 0; e < vehicle_.elements_.size(); ++e)
       sum.lift(draining.element_rate(e), vehicle_.elements_[e].r_EL, field);
   }
@@ -179,8 +179,7 @@ class Bookkeeper {
 
   Vehicle<H, S>& vehicle_;
   const Number<H>* state_;
-  Mat<H> dcm_NB_;
-  MountMotion<H> hub_;
+  Vec<H> omega_;
 };
 
 }  // namespace twincraft::bsm::TWINCRAFT_KERNEL

@@ -198,7 +198,7 @@ class Limb {
         pull.add(element.mass * field.difference(place), r_EL);
         outside.add(pull, at);
         if (field.has_gradient)
-          outside.add_turn(field.gradient_torque(place, element.I.turned(at.dcm_WL)), at);
+          outside.add_turn(field.gradient_torque(place, element.I.turned(at.dcm_WL)), at.omega);
       }
     }
     for (const Chain<H, S>& chain : chains_) chain.add_gravity(mount(chain.mount()), outside);

@@ -22,13 +22,18 @@ struct Outside {
     pull.torque += on_link.torque + cross(link.r_LB, on_link.force);
     power += dot(on_link.force, link.v_LB) + dot(on_link.torque, link.omega);
   }
+  /// On the hub, about B.
+  void add_on_hub(const Pull<S>& on_hub, const Vec<S>& omega) {
+    pull.add(on_hub);
+    power += dot(on_hub.torque, omega);
+  }
   /// On a particle. @param r, v  of it
   void add_at(const Vec<S>& force, const Vec<S>& r, const Vec<S>& v) {
     pull.add(force, r);
     power += dot(force, v);
   }
-  void add_turn(const Vec<S>& torque, const MountMotion<S>& link) {
-    const S works = dot(torque, link.omega);
+  void add_turn(const Vec<S>& torque, const Vec<S>& omega) {
+    const S works = dot(torque, omega);
     pull.torque += torque;
     power += works;
     turn_power += works;

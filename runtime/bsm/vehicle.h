@@ -81,7 +81,10 @@ class Vehicle {
   }
 
   void derivative(Number<H> time, const Number<H>* state, Number<H>* rate) {
-    if (turns_alone_) return turn_alone(state, rate);
+    if (turns_alone_) {
+      if (plan_.chart == AttitudeChart::kMrp) return turn_alone<Mrp<H>>(state, rate);
+      return turn_alone<Quaternion<H>>(state, rate);
+    }
     if (tanks_.flow()) return derivative_draining(time, state, rate);
     derivative_steady(time, state, rate);
   }
@@ -174,30 +177,29 @@ class Vehicle {
   void derivative_in(Number<H> time, const Number<H>* state, Number<H>* rate) {
     const Chart chart(state, Layout::kAttitude);
     const Vec<H> omega = vector(state, layout_.omega);
-    const Mat<H> dcm_NB = chart.dcm_NB();
+    dcm_NB_ = chart.dcm_NB();
     const Vec<S> omega_S = spread(omega);
     limbs_.for_each([&](auto& group) { group.limb.move(state, omega_S); });
 
     begin_hub_law(omega, rotor_momentum(state, omega));
-    if (push_.acts()) push(time, state, dcm_NB, omega);
-    const Vec<H> g_N = sum_laws(vector(state, 0), dcm_NB);
+    if (push_.acts()) push(time, state, omega);
+    sum_laws(vector(state, 0));
     if (!is_rigid_) factors_.factor(hub_);
     const Vec<H> omega_dot = factors_.schur.solve(transposed(factors_.coupling, hub_.f0) - hub_.n0);
     const Vec<H> a = -factors_.M.solve(hub_.f0) - factors_.coupling * omega_dot;
 
     const Vec<S> omega_dot_S = spread(omega_dot), a_S = spread(a);
     limbs_.for_each([&](auto& group) { group.limb.recover(omega_dot_S, a_S, rate); });
-    put_hub_rates(chart, state, dcm_NB * a + g_N, omega_dot, rate);
+    put_hub_rates(chart, state, dcm_NB_ * a + g_N_, omega_dot, rate);
     for (int i = layout_.joint; i < layout_.joint_rate; ++i) {
       put_entry(rate, i, entry<H>(state, i + layout_.joint_rate - layout_.joint));
     }
   }
 
   // Apart from derivative_in(): most vehicles have no such force.
-  [[gnu::noinline]] void push(Number<H> time, const Number<H>* state, const Mat<H>& dcm_NB,
-                              const Vec<H>& omega) {
+  [[gnu::noinline]] void push(Number<H> time, const Number<H>* state, const Vec<H>& omega) {
     pushed_ = {};
-    push_.add({H(time), vector(state, 0), vector(state, 3), dcm_NB}, omega, limbs_,
+    push_.add({H(time), vector(state, 0), vector(state, 3), dcm_NB_}, omega, limbs_,
               [this](const Pull<H>& pull) {
                 pushed_.add(pull);
                 hub_.f0 -= pull.force;
@@ -207,16 +209,8 @@ class Vehicle {
 
   /// A rigid hub whose origin is its centre of mass, that no force acts on: rotation knows nothing
   /// of translation, nor the other way. Apart from derivative_in(), whose frame it does not need.
-  [[gnu::noinline]] void turn_alone(const Number<H>* state, Number<H>* rate) {
-    if (plan_.chart == AttitudeChart::kMrp) {
-      turn_alone_in<Mrp<H>>(state, rate);
-    } else {
-      turn_alone_in<Quaternion<H>>(state, rate);
-    }
-  }
-
   template <class Chart>
-  void turn_alone_in(const Number<H>* state, Number<H>* rate) {
+  [[gnu::noinline]] void turn_alone(const Number<H>* state, Number<H>* rate) {
     const Vec<H> omega = vector(state, layout_.omega);
     const Vec<H> spin = rotor_momentum(state, omega);
     hub_.n0 = cross(omega, mass_.J * omega + spin) + (motor_torque_ - held_.torque);
@@ -272,15 +266,8 @@ class Vehicle {
     hub_.f0 = cross(omega, cross(omega, mass_.moment)) - held_.force;
   }
 
-  Field<H> field_at(const Vec<H>& r_BN_N, const Mat<H>& dcm_NB, const Vec<H>& r_CB) const {
-    const bool is_uniform = plan_.law == GravityLaw::kSystemCom;
-    return {mu_, is_uniform ? r_BN_N + dcm_NB * r_CB : r_BN_N,
-            plan_.law == GravityLaw::kBodyGradient};
-  }
-
-  /// The law of the whole vehicle about B. @return the common acceleration of the falling frame
-  /// [m/s^2]
-  Vec<H> sum_laws(const Vec<H>& r_BN_N, const Mat<H>& dcm_NB) {
+  /// The law of the whole vehicle about B, in a frame that falls by g_N_.
+  void sum_laws(const Vec<H>& r_BN_N) {
     const bool is_uniform = plan_.law == GravityLaw::kSystemCom;
     Vec<H> r_CB;
     if (is_uniform || acts_at_center_) r_CB = center_of_mass();
@@ -291,17 +278,20 @@ class Vehicle {
     }
     if (plan_.law == GravityLaw::kNone) {
       add_limbs(nullptr, center);
-      return {};
+      return;
     }
-    const Field<H> field = field_at(r_BN_N, dcm_NB, r_CB);
-    if (has_elements_) {
-      const Field<H> field_B = field.in_axes(dcm_NB);
-      pull_on_hub(field_B);
-      add_limbs(&field_B, center);
-    } else {
+    const Field<H> field(mu_, is_uniform ? r_BN_N + dcm_NB_ * r_CB : r_BN_N,
+                         plan_.law == GravityLaw::kBodyGradient);
+    g_N_ = field.at_hub();
+    if (!has_elements_) {
+      if (tanks_.flow()) field_ = field.in_axes(dcm_NB_);
       add_limbs(nullptr, center);
+      return;
     }
-    return field.at_hub();
+    const Field<H> field_B = field.in_axes(dcm_NB_);
+    pull_on_hub(field_B);
+    add_limbs(&field_B, center);
+    field_ = field_B;  // not before: a law would wait for what was just stored
   }
 
   Vec<H> center_of_mass() const {
@@ -375,6 +365,9 @@ class Vehicle {
   HubFactors factors_;
   Sym<H> inverse_inertia_;  // of a rigid hub, about its centre of mass
   Law<H> hub_alone_, hub_;
+  Mat<H> dcm_NB_;    // unless it turns alone; so is
+  Vec<H> g_N_;       // [m/s^2] the common acceleration of the falling frame
+  Field<H> field_;   // in hub axes, where elements or books ask for it
   Push<H, S> push_;  // of forces that follow the motion of links
   Pull<H> pushed_;   // of them, on the hub
 };
