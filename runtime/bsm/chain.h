@@ -160,13 +160,13 @@ class Chain {
     return {mass_, mass_ * r_HB_ + in_axes(sum)};
   }
 
-  /// The chain's law about the origin of its mount.
-  Law<S> law(const Field<S>* field) {
+  /// Tell the mount the chain's law: see Law::take().
+  template <bool kIsFirst>
+  void tell(const Field<S>* field, Law<S>& mount) {
     Law<S> law = law_about_root(field);
     law.n0 = plus_product(law.n0, law.H, a_bias_);
     law.f0 = plus_product(law.f0, law.M, a_bias_);
-    law.move(r_HP_);
-    return law;
+    mount.template take<kIsFirst>(law, r_HP_);
   }
 
   /// Joint accelerations from the mount's.

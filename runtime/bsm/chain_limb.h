@@ -30,7 +30,10 @@ class ChainLimb {
     chain_.move(state, hub_);
   }
   Moment<S> moment() const { return chain_.moment(); }
-  Law<S> contribute(const Field<S>* field, const Vec<S>*) { return chain_.law(field); }
+  const Law<S>& contribute(const Field<S>* field, const Vec<S>*) {
+    chain_.template tell<true>(field, law_);
+    return law_;
+  }
   void recover(const Vec<S>& omega_dot_B, const Vec<S>& a_B, Number<H>* rate) const {
     chain_.recover(omega_dot_B, a_B, rate);
   }
@@ -56,6 +59,7 @@ class ChainLimb {
 
   Chain<H, S> chain_;
   MountMotion<S> hub_ = hub_itself<S>();
+  Law<S> law_;
 };
 
 }  // namespace twincraft::bsm::TWINCRAFT_KERNEL

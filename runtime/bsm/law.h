@@ -34,29 +34,48 @@ struct Law {
   Mat<S> H;       // [kg m]
   Vec<S> n0, f0;  // [N m], [N]
 
-  Law& operator+=(const Law& o) {
-    J += o.J;
-    M += o.M;
-    H += o.H;
-    n0 += o.n0;
-    f0 += o.f0;
-    return *this;
-  }
-  /// Move it from a child's origin to the parent's, d away: a' = a_P + omegaDot_P x d and
-  /// n_P = n + d x f give H_P = H + d~ M and J_P = J + Z + Z^T with Z^T = (H + H_P) / 2 d~^T.
-  [[gnu::always_inline]] void move(const Vec<S>& d) {
-    Mat<S> both = H;  // H + H_P
-    H = {plus_cross(H.x, d, M.column_x()), plus_cross(H.y, d, M.column_y()),
-         plus_cross(H.z, d, M.column_z())};
-    both += H;
+  /// Add a child's law, or begin with it where it is the first. It moves from the child's origin to
+  /// the parent's, d away: a' = a_P + omegaDot_P x d and n_P = n + d x f give H_P = H + d~ M and
+  /// J_P = J + Z + Z^T with Z^T = (H + H_P) / 2 d~^T, here column by column of H. Inlined, or the
+  /// child's law would pass through memory.
+  template <bool kIsFirst>
+  [[gnu::always_inline]] void take(const Law& child, const Vec<S>& d) {
+    const auto put = [](auto& to, const auto& value) {
+      if constexpr (kIsFirst)
+        to = value;
+      else
+        to += value;
+    };
+    put(f0, child.f0);
+    put(n0, plus_cross(child.n0, d, child.f0));
+    put(M, child.M);
     const Vec<S> half = S(0.5) * d;
-    J.xx = J.xx + d.y * both.z.x - d.z * both.y.x;
-    J.yy = J.yy + d.z * both.x.y - d.x * both.z.y;
-    J.zz = J.zz + d.x * both.y.z - d.y * both.x.z;
-    J.xy = J.xy + half.y * both.z.y - half.z * both.y.y + half.z * both.x.x - half.x * both.z.x;
-    J.xz = J.xz + half.y * both.z.z - half.z * both.y.z + half.x * both.y.x - half.y * both.x.x;
-    J.yz = J.yz + half.z * both.x.z - half.x * both.z.z + half.x * both.y.y - half.y * both.x.y;
-    n0 = plus_cross(n0, d, f0);
+    Sym<S> j = child.J;
+    Vec<S> column = plus_cross(child.H.x, d, child.M.column_x());
+    Vec<S> both = child.H.x + column;
+    put(H.x, column);
+    j.yy = j.yy + d.z * both.y;
+    j.zz = j.zz - d.y * both.z;
+    j.xy = j.xy + half.z * both.x;
+    j.xz = j.xz - half.y * both.x;
+    j.yz = j.yz + half.z * both.z - half.y * both.y;
+    column = plus_cross(child.H.y, d, child.M.column_y());
+    both = child.H.y + column;
+    put(H.y, column);
+    j.xx = j.xx - d.z * both.x;
+    j.zz = j.zz + d.x * both.z;
+    j.xy = j.xy - half.z * both.y;
+    j.xz = j.xz + half.x * both.x - half.z * both.z;
+    j.yz = j.yz + half.x * both.y;
+    column = plus_cross(child.H.z, d, child.M.column_z());
+    both = child.H.z + column;
+    put(H.z, column);
+    j.xx = j.xx + d.y * both.x;
+    j.yy = j.yy - d.x * both.y;
+    j.xy = j.xy + half.y * both.y - half.x * both.x;
+    j.xz = j.xz + half.y * both.z;
+    j.yz = j.yz - half.x * both.z;
+    put(J, j);
   }
 };
 

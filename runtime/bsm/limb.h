@@ -96,7 +96,7 @@ class Limb {
   /// Positions and rates of all links from those of the hub.
   void move(const Number<H>* state, const Vec<S>& omega_BN_B) {
     hub_.omega = omega_BN_B;
-    turn_hinges(state);
+    if (!hinges_.empty()) turn_hinges(state);
     for (std::size_t i = 0; i < links_.size(); ++i) move_link(i, state);
     for (Chain<H, S>& chain : chains_) chain.move(state, mount(chain.mount()));
   }
@@ -111,16 +111,21 @@ class Limb {
     return sum;
   }
 
-  /// The limb's law about B.
+  /// The limb's law about B, until the next call.
   /// @param field  null: nothing pulls  @param r_CB  [m] null: nothing acts at the centre of mass
-  Law<S> contribute(const Field<S>* field, const Vec<S>* r_CB) {
+  const Law<S>& contribute(const Field<S>* field, const Vec<S>* r_CB) {
     for (const Chain<H, S>& chain : chains_) laws_[index(chain.mount())] = {};
-    for (Chain<H, S>& chain : chains_) laws_[index(chain.mount())] += chain.law(field);
-    for (std::size_t i = links_.size(); i-- > 1;)
-      tell(i, field, r_CB, laws_[index(links_[i].parent)]);
-    Law<S> hub;
-    tell(0, field, r_CB, hub);
-    return hub;
+    for (Chain<H, S>& chain : chains_)
+      chain.template tell<false>(field, laws_[index(chain.mount())]);
+    for (std::size_t i = links_.size(); i-- > 1;) {
+      Law<S>& parent = laws_[index(links_[i].parent)];
+      if (links_[i].tells_first)
+        tell<true>(i, field, r_CB, parent);
+      else
+        tell<false>(i, field, r_CB, parent);
+    }
+    tell<true>(0, field, r_CB, hub_law_);
+    return hub_law_;
   }
 
   /// Accelerations of joints and rotors from those of the hub.
@@ -132,7 +137,7 @@ class Limb {
       const Vec<S>& omega_dot_P =
           link.parent < 0 ? omega_dot_B : motions_[index(link.parent)].omega_dot;
       const Vec<S>& a_P = link.parent < 0 ? a_B : motions_[index(link.parent)].a;
-      const Vec<S> a_joint = a_P + cross(omega_dot_P, m.r_HP);
+      const Vec<S> a_joint = plus_cross(a_P, omega_dot_P, m.r_HP);
       const S q_ddot = r.gain - dot(r.gain_n, omega_dot_P) - dot(r.gain_f, a_joint);
       scatter<H, S>(q_ddot, rate, link.rate);
       m.omega_dot = omega_dot_P + m.omega_bias;
@@ -318,13 +323,12 @@ class Limb {
 
   /// contribute() goes through chains, then through links from the last to the first.
   void find_first_to_tell() {
-    std::vector<bool> is_told(links_.size(), false);
-    for (const Chain<H, S>& chain : chains_)
-      if (chain.mount() >= 0) is_told[index(chain.mount())] = true;
-    for (std::size_t i = links_.size(); i-- > 1;) {
-      const std::size_t parent = index(links_[i].parent);
-      links_[i].tells_first = !is_told[parent];
-      is_told[parent] = true;
+    for (std::size_t i = 1; i < links_.size(); ++i) {
+      bool& first = links_[i].tells_first;
+      const int parent = links_[i].parent;
+      for (const Chain<H, S>& chain : chains_) first = first && chain.mount() != parent;
+      for (std::size_t j = i + 1; j < links_.size(); ++j)
+        first = first && links_[j].parent != parent;
     }
   }
 
@@ -396,16 +400,13 @@ class Limb {
   }
 
   /// Let the parent know what link i and all beyond it ask, about the parent's origin.
+  template <bool kIsFirst>
   void tell(std::size_t i, const Field<S>* field, const Vec<S>* r_CB, Law<S>& parent) {
     Law<S> law = laws_[i];
     add_own(i, law);
     add_loads(i, field, r_CB, law);
     eliminate(i, law);
-    law.move(motions_[i].r_HP);
-    if (links_[i].tells_first)
-      parent = law;
-    else
-      parent += law;
+    parent.template take<kIsFirst>(law, motions_[i].r_HP);
   }
 
   [[gnu::always_inline]] void add_own(std::size_t i, Law<S>& law) const {
@@ -415,8 +416,8 @@ class Limb {
     const Vec<S>&omega = m.at.omega, &moment = m.moment;
     const Sym<S> J = link.mass.J.turned(m.at.dcm_WL);
     law.J += J;
-    law.H += cross_matrix(moment);
-    law.M += Sym<S>::isotropic(link.mass.mass);
+    law.H.add_cross_matrix(moment);
+    law.M.add_isotropic(link.mass.mass);
     Vec<S> spin = J * omega;
     for (const RotorOn<H, S>& rotor : link.rotors) spin += rotor.momentum * rotor.axis;
     law.n0 = plus_cross(law.n0, omega, spin);
@@ -438,7 +439,11 @@ class Limb {
       law.n0 -= m.pushed.torque;
       law.f0 -= m.pushed.force;
     }
-    if (field != nullptr) pull(i, *field, law);
+    if (field != nullptr) {
+      const Pull<S> sum = pull(i, *field);
+      law.n0 -= sum.torque;
+      law.f0 -= sum.force;
+    }
     if (r_CB != nullptr) {
       const Vec<S> force = dcm_WL(i) * link.held_at_center;
       law.f0 -= force;
@@ -446,7 +451,7 @@ class Limb {
     }
   }
 
-  void pull(std::size_t i, const Field<S>& field, Law<S>& law) const {
+  Pull<S> pull(std::size_t i, const Field<S>& field) const {
     const Motion& m = motions_[i];
     Pull<S> sum;
     for (const ElementNow<S>& element : links_[i].elements) {
@@ -457,8 +462,7 @@ class Limb {
         sum.torque += field.gradient_torque(place, element.I.turned(m.at.dcm_WL));
       }
     }
-    law.f0 -= sum.force;
-    law.n0 -= sum.torque;
+    return sum;
   }
 
   /// Take the joint's own acceleration out.
@@ -479,7 +483,7 @@ class Limb {
       known = dot(s, law.f0);
     } else {
       law.n0 = plus_product(law.n0, law.J, m.omega_bias);
-      law.f0 += transposed(law.H, m.omega_bias);
+      law.f0 = plus_transposed(law.f0, law.H, m.omega_bias);
       U_n = law.J * s;
       U_f = transposed(law.H, s);
       along = dot(s, U_n);
@@ -501,6 +505,7 @@ class Limb {
   std::vector<std::size_t> hinges_;  // of them
   std::vector<DrainingLink> draining_;
   std::vector<Motion> motions_;
+  Law<S> hub_law_;            // about B
   std::vector<Law<S>> laws_;  // that what hangs on a link asks of it; never anything of a leaf
   std::vector<Recovery> recoveries_;
   std::vector<Chain<H, S>> chains_;

@@ -61,6 +61,15 @@ struct Mat {
   const Vec<S>& column_x() const { return x; }
   const Vec<S>& column_y() const { return y; }
   const Vec<S>& column_z() const { return z; }
+  /// Add the matrix of v x, and no zeros.
+  void add_cross_matrix(const Vec<S>& v) {
+    x.y += v.z;
+    x.z -= v.y;
+    y.x -= v.z;
+    y.z += v.x;
+    z.x += v.y;
+    z.y -= v.x;
+  }
   Vec<S> row_x() const { return {x.x, y.x, z.x}; }
   Vec<S> row_y() const { return {x.y, y.y, z.y}; }
   Vec<S> row_z() const { return {x.z, y.z, z.z}; }
@@ -84,6 +93,14 @@ template <class S, class M>
 template <class S>
 Vec<S> transposed(const Mat<S>& m, const Vec<S>& v) {
   return {dot(m.x, v), dot(m.y, v), dot(m.z, v)};
+}
+
+/// v + m^T a, fused like plus_cross().
+template <class S>
+Vec<S> plus_transposed(const Vec<S>& v, const Mat<S>& m, const Vec<S>& a) {
+  return {v.x + m.x.x * a.x + m.x.y * a.y + m.x.z * a.z,
+          v.y + m.y.x * a.x + m.y.y * a.y + m.y.z * a.z,
+          v.z + m.z.x * a.x + m.z.y * a.y + m.z.z * a.z};
 }
 
 /// The matrix of v x.
@@ -126,6 +143,13 @@ struct Sym {
     return {s * a.xx, s * a.yy, s * a.zz, s * a.xy, s * a.xz, s * a.yz};
   }
 
+  /// Add a multiple of the unit matrix, and no zeros.
+  void add_isotropic(const S& value) {
+    xx += value;
+    yy += value;
+    zz += value;
+  }
+
   /// Take away u v^T, which is symmetric because v is a multiple of u.
   void subtract(const Vec<S>& u, const Vec<S>& v) {
     xx -= u.x * v.x;
@@ -134,16 +158,6 @@ struct Sym {
     xy -= u.x * v.y;
     xz -= u.x * v.z;
     yz -= u.y * v.z;
-  }
-
-  /// Add Z + Z^T.
-  void add_twice_symmetric(const Mat<S>& Z) {
-    xx += Z.x.x + Z.x.x;
-    yy += Z.y.y + Z.y.y;
-    zz += Z.z.z + Z.z.z;
-    xy += Z.y.x + Z.x.y;
-    xz += Z.z.x + Z.x.z;
-    yz += Z.z.y + Z.y.z;
   }
 
   /// R this R^T

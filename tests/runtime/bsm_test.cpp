@@ -87,6 +87,30 @@ TEST(Kernel, EqualsTheDenseAssemblyOnTwinLimbs) {
   }
 }
 
+/// Exact along coordinate axes, or the zeros of most vehicles would become rounding errors.
+TEST(Tree, TurnsLinksToWhereTheThirdAxisIsTheJoints) {
+  std::mt19937_64 random(37);
+  Assembly assembly = test::random_assembly(random, 1, 0);
+  const auto dcm_KL_about = [&assembly](const Vector3d& axis) {
+    assembly.links[1].joint.axis_L = axis;
+    return bsm::prepare(assembly).links[1].dcm_KL;
+  };
+  for (int i = 0; i < 3; ++i) {
+    for (const double sign : {1.0, -1.0}) {
+      const Vector3d axis = sign * Vector3d::Unit(i);
+      const Matrix3d dcm_KL = dcm_KL_about(axis);
+      EXPECT_EQ(Vector3d(dcm_KL * axis), Vector3d::UnitZ());
+      EXPECT_EQ(Matrix3d(dcm_KL * dcm_KL.transpose()), Matrix3d::Identity());
+      EXPECT_EQ(dcm_KL.determinant(), 1.0);
+    }
+  }
+  const Vector3d axis = Vector3d(0.3, -0.5, 0.2).normalized();
+  const Matrix3d dcm_KL = dcm_KL_about(axis);
+  EXPECT_LT((dcm_KL * axis - Vector3d::UnitZ()).norm(), 1e-15);
+  EXPECT_LT((dcm_KL * dcm_KL.transpose() - Matrix3d::Identity()).norm(), 1e-15);
+  EXPECT_NEAR(dcm_KL.determinant(), 1.0, 1e-15);
+}
+
 /// The force room's wrenches through the dense assembly, against the kernel's own gravity.
 TEST(Kernel, FeelsTheGravityOfTheForceRoom) {
   std::mt19937_64 random(29);
