@@ -128,13 +128,15 @@ RungeKutta::RungeKutta(const Tableau& tableau, Ode& ode)
 void RungeKutta::evaluate_stages(double time, double h) {
   const auto size = static_cast<std::size_t>(size_);
   const double* state = state_.value.data();
+  const double* stages = stages_.data();
   double* k = stages_.data();
   ode_.derivative(time, {state, size}, {k, size});
-  for (std::size_t i = 1; i < stage_sums_.size(); ++i) {
+  std::size_t stage = 0;
+  for (const WeightedSum& sum : std::span<const WeightedSum>(stage_sums_).subspan(1)) {
+    ++stage;
     k += padded_size_;
-    const WeightedSum& sum = stage_sums_[i];
-    sum.add(sum, h, stages_.data(), state, trial_.data());
-    ode_.derivative(time + tableau_.c[i] * h, {trial_.data(), size}, {k, size});
+    sum.add(sum, h, stages, state, trial_.data());
+    ode_.derivative(time + tableau_.c[stage] * h, {trial_.data(), size}, {k, size});
   }
 }
 
