@@ -1,5 +1,5 @@
-// Claims about the factors that the kernel solves 3x3 systems by: as exact as an elimination can be,
-// whatever the condition.
+// Claims about the factors that the kernel solves 3x3 systems by: as exact as an elimination can
+// be, whatever the condition.
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
