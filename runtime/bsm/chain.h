@@ -119,7 +119,8 @@ class Chain {
   }
 
   /// @param mount  how the mount moves: where it is matters for gravity and the centre of mass
-  void move(const Number<H>* state, const MountMotion<S>& mount) {
+  // Flattened, or the portable set calls the sines, with their constants, once a link.
+  [[gnu::flatten]] void move(const Number<H>* state, const MountMotion<S>& mount) {
     if (mount_ >= 0) {
       dcm_WC_ = mount.dcm_WL * dcm_PC_;
       r_HP_ = mount.dcm_WL * r_HP_P_;
