@@ -36,7 +36,7 @@ fn=step()
 0x20 7
 cob=/lib/libc.so.6
 cfn=malloc
-calls=1 0x10
+calls=3 0x10
 0x24 5
 0x24 2
 """
@@ -47,14 +47,14 @@ class Callgrind(unittest.TestCase):
         with tempfile.NamedTemporaryFile("w", suffix=".out") as file:
             file.write(CALLGRIND)
             file.flush()
-            self.costs = callgrind.read(file.name)
+            self.profile = callgrind.read(file.name)
 
     def test_the_cost_of_a_call_is_the_callees(self):
-        self.assertEqual(self.costs["/bin/program", "step()", "0x24"], 2)
-        self.assertEqual(callgrind.total(self.costs), 14)
+        self.assertEqual(self.profile.costs["/bin/program", "step()", "0x24"], 2)
+        self.assertEqual(callgrind.total(self.profile), 14)
 
-    def test_the_heap_is_seen(self):
-        self.assertEqual(callgrind.heap(self.costs), 5)
+    def test_calls_of_the_heap_are_seen(self):
+        self.assertEqual(self.profile.heap_calls, 3)
 
 
 class Breakdown(unittest.TestCase):

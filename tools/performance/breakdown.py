@@ -35,8 +35,8 @@ def phase(functions: list[str]) -> str:
 def shares(case: Case, engine: str, fewer: int, more: int) -> list[tuple[str, float]]:
     """Per phase its share of a step's instructions, largest first."""
     ours = str(STEPS)
-    costs = counted_run(case, engine, more, by_instruction=True)
-    costs.subtract(counted_run(case, engine, fewer, by_instruction=True))
+    costs = counted_run(case, engine, more, by_instruction=True).costs
+    costs.subtract(counted_run(case, engine, fewer, by_instruction=True).costs)
     stacks = callgrind.inlined(ours, [at for where, _, at in costs if where == ours])
     by_phase: collections.Counter = collections.Counter()
     for (where, function, at), cost in costs.items():

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import collections
+import dataclasses
 import re
 import subprocess
 
@@ -10,12 +11,20 @@ import subprocess
 Costs = collections.Counter
 
 COST = re.compile(r"(0x[0-9a-f]+|\d+) (\d+)")
-HEAP = re.compile(r"(malloc|calloc|realloc|free|_int_\w+|cfree|operator (new|delete).*)$")
+CALLS = re.compile(r"calls=(\d+)")
+HEAP = re.compile(r"(malloc|calloc|realloc|free|cfree|operator (new|delete).*)$")
 
 
-def read(path: str) -> Costs:
+@dataclasses.dataclass(frozen=True)
+class Profile:
+    costs: Costs
+    heap_calls: int  # of the heap's functions: how long these take depends on what was done before
+
+
+def read(path: str) -> Profile:
     costs: Costs = collections.Counter()
-    where = function = ""
+    heap_calls = 0
+    where = function = callee = ""
     is_call = False  # the next cost is the callee's
     with open(path) as file:
         for line in file:
@@ -23,21 +32,21 @@ def read(path: str) -> Costs:
                 where = line[3:].strip()
             elif line.startswith("fn="):
                 function = line[3:].strip()
-            elif line.startswith("calls="):
+            elif line.startswith("cfn="):
+                callee = line[4:].strip()
+            elif calls := CALLS.match(line):
                 is_call = True
+                if HEAP.match(callee):
+                    heap_calls += int(calls[1])
             elif match := COST.match(line):
                 if not is_call:
                     costs[where, function, match[1]] += int(match[2])
                 is_call = False
-    return costs
+    return Profile(costs, heap_calls)
 
 
-def total(costs: Costs) -> int:
-    return sum(costs.values())
-
-
-def heap(costs: Costs) -> int:
-    return sum(cost for (_, function, _), cost in costs.items() if HEAP.match(function))
+def total(profile: Profile) -> int:
+    return sum(profile.costs.values())
 
 
 def inlined(program: str, addresses: list[str]) -> dict[str, list[str]]:

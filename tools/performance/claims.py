@@ -97,9 +97,9 @@ def recorded_time(results: Results, case: Case, engine: str) -> float:
     return best(race, f"{engine}_recorded") / best(race, engine)
 
 
-def heap(results: Results) -> float:
+def heap_calls(results: Results) -> float:
     engines = ("portable", "bsm", "mujoco")
-    return max(results.counts[case.name, engine].heap for case in ALL for engine in engines)
+    return max(results.counts[case.name, engine].heap_calls for case in ALL for engine in engines)
 
 
 def set_times(race: dict) -> dict[str, float]:
@@ -167,13 +167,13 @@ def choices(results: Results) -> list[Claim]:
 
 def claims(results: Results) -> list[Claim]:
     overhead = max(PAPER, key=lambda name: wrapper(results, name))
-    in_heap = heap(results)
+    in_heap = heap_calls(results)
     return [
         *speeds(results),
         *growth(results),
         *recordings(results),
         Claim(
-            "instructions in the heap's functions within a step, either engine",
+            "calls of the heap's functions in a step, either engine",
             "0",
             "0",
             f"{in_heap:g}",

@@ -94,7 +94,7 @@ times a run. Instructions are those of any x86-64, times best over best, the run
 
 {count_table(results)}
 
-By callgrind: the difference of runs of {FEWER} and {MORE} steps, so that set-up is not in it. The same number comes out every time.
+By callgrind: the difference of runs of {FEWER} and {MORE} steps, so that set-up is not in it. It repeats to a tenth of a percent.
 `tools/check` holds {len(GATED)} of the portable engine's, bare and recorded, against `tests/bench/instructions.json`
 (`tools/benchmark --counts`). callgrind has no AVX-512. *fewer* is `mj_forward` over the first column. In the last column the rows with
 gravity, loads or tanks include them; the sub-stages have none.

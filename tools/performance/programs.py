@@ -82,7 +82,7 @@ def counted_run(case: Case, engine: str, steps: int, by_instruction: bool = Fals
 @dataclasses.dataclass(frozen=True)
 class Count:
     instructions: float  # per step
-    heap: float  # of them, in the heap's functions
+    heap_calls: float  # of the heap's functions, per step
 
 
 def count(case: Case, engine: str, fewer: int, more: int) -> Count:
@@ -91,7 +91,7 @@ def count(case: Case, engine: str, fewer: int, more: int) -> Count:
     steps = more - fewer
     return Count(
         (callgrind.total(second) - callgrind.total(first)) / steps,
-        (callgrind.heap(second) - callgrind.heap(first)) / steps,
+        (second.heap_calls - first.heap_calls) / steps,
     )
 
 
