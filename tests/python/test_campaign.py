@@ -290,6 +290,7 @@ INTERRUPTED = """
 import os, signal, sys, threading
 import twincraft as tc
 m = tc.load(sys.argv[1], set={"simulation.duration": 100, "campaign.members": 100000})
+signal.signal(signal.SIGINT, signal.default_int_handler)  # a background job begins without
 threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT)).start()
 try:
     m.campaign(folder=sys.argv[2])

@@ -104,6 +104,7 @@ moves = {
 def interrupt():
     time.sleep(0.3)
     os.kill(os.getpid(), signal.SIGINT)
+signal.signal(signal.SIGINT, signal.default_int_handler)  # a background job begins without
 threading.Thread(target=interrupt).start()
 begin = time.monotonic()
 try:
