@@ -1,5 +1,5 @@
 // A limb: what hangs on the hub by one joint, or like limbs side by side in the lanes of S. Here of
-// any form; limbs of one form that is frequent are written out in point.h and chain_limb.h.
+// any form; those of a frequent form are written out in chain_limb.h, point.h and bob.h.
 // See law.h for the equations. Tested by tests/runtime/bsm_test.cpp.
 #pragma once
 
@@ -41,7 +41,7 @@ class Limb {
       std::array<const ChainPlan*, kLanes<S>> of_lanes;
       for (std::size_t l = 0; l < lanes.size(); ++l) of_lanes[l] = &lanes[l]->chains[c];
       Chain<H, S>& chain = chains_.emplace_back(of_lanes, layout);
-      if (chain.mount() >= 0) chain.turn_mount(links_[index(chain.mount())].dcm_KL);
+      chain.turn_mount(links_[index(chain.mount())].dcm_KL);
     }
     turn_links();
     find_first_to_tell();
