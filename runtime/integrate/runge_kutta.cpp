@@ -1,6 +1,4 @@
-// The stepper's inner loops. Vectors are padded to whole lanes of four doubles and the number of
-// terms of a sum is a template argument, so each sum is one straight loop without a tail, its
-// weights in registers.  Tested by tests/runtime/runge_kutta_test.cpp.
+// See runge_kutta.h.  Tested by tests/runtime/runge_kutta_test.cpp.
 #include "runtime/integrate/runge_kutta.h"
 
 #include <algorithm>
@@ -10,12 +8,9 @@
 namespace twincraft {
 namespace {
 
-constexpr Eigen::Index kLanes = 4;
-using Lanes = Eigen::Array<double, kLanes, 1>;
-using ConstLaneMap = Eigen::Map<const Lanes, Eigen::Aligned16>;
-using LaneMap = Eigen::Map<Lanes, Eigen::Aligned16>;
+constexpr int kLanes = WeightedSum::kLanes;
 
-Eigen::Index whole_lanes(int size) { return (size + kLanes - 1) / kLanes * kLanes; }
+int whole_lanes(int size) { return (size + kLanes - 1) / kLanes * kLanes; }
 
 Tableau::Row difference(const Tableau::Row& left, const Tableau::Row& right) {
   Tableau::Row result{};
@@ -23,88 +18,26 @@ Tableau::Row difference(const Tableau::Row& left, const Tableau::Row& right) {
   return result;
 }
 
+const StageSums& sums_for(const Ode& ode) {
+  const std::size_t written = ode.written_at_once();
+  return written < 4 ? sums_x86_64::stage_sums(written == 2) : sums_avx2::stage_sums(true);
+}
+
 }  // namespace
 
-/// The weighted stages of a sum, four entries at a time.
-template <int kTerms>
-class RungeKutta::Terms {
- public:
-  Terms(const WeightedSum& sum, double h, const double* stages) {
-#pragma GCC unroll 16
-    for (std::size_t term = 0; term < kTerms; ++term) {
-      weight_[term] = h * sum.coefficient[term];
-      k_[term] = stages + sum.offset[term];
-    }
-  }
-  Lanes at(Eigen::Index i) const {
-    constexpr std::size_t kLast = kTerms - 1;
-    const Lanes last = weight_[kLast] * one_by_one(k_[kLast] + i);
-    if constexpr (kLast == 0) return last;
-    Lanes total = weight_[0] * ConstLaneMap(k_[0] + i);
-#pragma GCC unroll 16
-    for (std::size_t term = 1; term < kLast; ++term)
-      total += weight_[term] * ConstLaneMap(k_[term] + i);
-    return total + last;
-  }
-  /// The last stage has just been written, number by number: a wider load would have to wait until
-  /// they have left the store buffer.
-  static Lanes one_by_one(const volatile double* k) {
-    const double k0 = k[0], k1 = k[1], k2 = k[2], k3 = k[3];
-    return {k0, k1, k2, k3};
-  }
-
- private:
-  std::array<double, kTerms> weight_;
-  std::array<const double*, kTerms> k_;
-};
-
-template <int kTerms>
-void RungeKutta::add(const WeightedSum& sum, double h, const double* stages, const double* base,
-                     double* result) {
-  const Terms<kTerms> terms(sum, h, stages);
-  for (Eigen::Index i = 0, end = sum.padded_size; i < end; i += kLanes)
-    LaneMap(result + i) = ConstLaneMap(base + i) + terms.at(i);
-}
-
-template <int kTerms>
-void RungeKutta::add_compensated(const WeightedSum& sum, double h, const double* stages,
-                                 const Solution& base, Solution& result) {
-  const Terms<kTerms> terms(sum, h, stages);
-  const double* value = base.value.data();
-  const double* carry = base.carry.data();
-  double* new_value = result.value.data();
-  double* new_carry = result.carry.data();
-  for (Eigen::Index i = 0, end = sum.padded_size; i < end; i += kLanes) {
-    const Lanes before = ConstLaneMap(value + i);
-    const Lanes increment = terms.at(i) + ConstLaneMap(carry + i);
-    const Lanes after = before + increment;
-    LaneMap(new_value + i) = after;
-    LaneMap(new_carry + i) = increment - (after - before);
-  }
-}
-
-RungeKutta::WeightedSum RungeKutta::weighted_sum(const Tableau::Row& coefficients) const {
-  using Indices = std::make_index_sequence<Tableau::kMaxStages>;
-  constexpr auto kAdd = []<std::size_t... kIndex>(std::index_sequence<kIndex...>) {
-    return std::array<WeightedSum::Add, sizeof...(kIndex)>{&add<kIndex + 1>...};
-  }
-  (Indices());
-  constexpr auto kAddCompensated = []<std::size_t... kIndex>(std::index_sequence<kIndex...>) {
-    return std::array<WeightedSum::AddTo, sizeof...(kIndex)>{&add_compensated<kIndex + 1>...};
-  }
-  (Indices());
-
-  WeightedSum sum{.padded_size = padded_size_};
+WeightedSum RungeKutta::weighted_sum(const Tableau::Row& coefficients) const {
+  WeightedSum sum{.padded_size = static_cast<std::size_t>(padded_size_)};
   std::size_t terms = 0;
   for (std::size_t stage = 0; stage < coefficients.size(); ++stage) {
     if (coefficients[stage] == 0.0) continue;
     sum.coefficient[terms] = coefficients[stage];
-    sum.offset[terms] = static_cast<Eigen::Index>(stage) * padded_size_;
+    sum.offset[terms] = stage * sum.padded_size;
     ++terms;
   }
   if (terms == 0) return sum;  // the first stage, which is never summed
-  sum.add = kAdd[terms - 1];
-  sum.add_compensated = kAddCompensated[terms - 1];
+  const StageSums& sums = sums_for(ode_);
+  sum.add = sums.add[terms - 1];
+  sum.add_compensated = sums.add_compensated[terms - 1];
   return sum;
 }
 
@@ -147,13 +80,13 @@ void RungeKutta::restart(std::span<const double> state) {
 
 void RungeKutta::step(double time, double h) {
   evaluate_stages(time, h);
-  solution_sum_.add_compensated(solution_sum_, h, stages_.data(), state_, state_);
+  solution_sum_.add_compensated(solution_sum_, h, stages_.data(), in(state_), out(state_));
   ode_.finish_step(state());
 }
 
 void RungeKutta::attempt(double time, double h) {
   evaluate_stages(time, h);
-  solution_sum_.add_compensated(solution_sum_, h, stages_.data(), state_, proposal_);
+  solution_sum_.add_compensated(solution_sum_, h, stages_.data(), in(state_), out(proposal_));
   error_sum_.add(error_sum_, h, stages_.data(), zero_.data(), error_.data());
 }
 
@@ -164,10 +97,7 @@ void RungeKutta::accept() {
 
 bool RungeKutta::is_finite(const Eigen::VectorXd& padded) {
   // Zero times a finite number is zero; times infinity or NaN it is NaN, which no sum forgets.
-  Lanes sum = Lanes::Zero();
-  for (Eigen::Index i = 0; i < padded.size(); i += kLanes)
-    sum += 0.0 * ConstLaneMap(padded.data() + i);
-  return sum.sum() == 0.0;
+  return (0.0 * padded).sum() == 0.0;
 }
 
 int RungeKutta::first_non_finite() const {

@@ -7,10 +7,11 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
+#include <cstddef>
 #include <span>
 #include <vector>
 
+#include "runtime/integrate/stage_sums.h"
 #include "runtime/integrate/tableau.h"
 
 namespace twincraft {
@@ -22,6 +23,9 @@ class Ode {
   virtual int size() const = 0;
   virtual void derivative(double time, std::span<const double> state, std::span<double> rate) = 0;
   virtual void finish_step(std::span<double> state) = 0;
+  /// How many numbers of a rate one store of derivative() writes, the first of them at a multiple
+  /// of as many. @pre four or more: the processor has AVX2
+  virtual std::size_t written_at_once() const { return 1; }
 };
 
 class RungeKutta {
@@ -63,41 +67,23 @@ class RungeKutta {
   int first_non_finite() const;
 
  private:
-  // h * sum of coefficient * stage, over the non-zero coefficients only, added to a base.
-  struct WeightedSum {
-    std::array<double, Tableau::kMaxStages> coefficient{};
-    std::array<Eigen::Index, Tableau::kMaxStages> offset{};  // of the stage in stages_
-    Eigen::Index padded_size = 0;
-
-    // result = base + h * sum
-    using Add = void (*)(const WeightedSum&, double h, const double* stages, const double* base,
-                         double* result);
-    Add add = nullptr;
-    // The same with what rounding took away from earlier sums; result may be base.
-    using AddTo = void (*)(const WeightedSum&, double h, const double* stages, const Solution& base,
-                           Solution& result);
-    AddTo add_compensated = nullptr;
-  };
-
-  template <int kTerms>
-  class Terms;
-  template <int kTerms>
-  static void add(const WeightedSum& sum, double h, const double* stages, const double* base,
-                  double* result);
-  template <int kTerms>
-  static void add_compensated(const WeightedSum& sum, double h, const double* stages,
-                              const Solution& base, Solution& result);
   WeightedSum weighted_sum(const Tableau::Row& coefficients) const;
   void evaluate_stages(double time, double h);
   std::span<const double> entries(const Eigen::VectorXd& padded) const {
     return {padded.data(), static_cast<std::size_t>(size_)};
+  }
+  static Compensated<const double> in(const Solution& solution) {
+    return {solution.value.data(), solution.carry.data()};
+  }
+  static Compensated<double> out(Solution& solution) {
+    return {solution.value.data(), solution.carry.data()};
   }
   static bool is_finite(const Eigen::VectorXd& padded);
 
   const Tableau& tableau_;
   Ode& ode_;
   int size_;
-  Eigen::Index padded_size_;  // every vector is zero-padded to whole lanes
+  int padded_size_;  // every vector is zero-padded to whole lanes
   std::vector<WeightedSum> stage_sums_;
   WeightedSum solution_sum_;
   WeightedSum error_sum_;

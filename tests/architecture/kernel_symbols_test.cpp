@@ -1,6 +1,6 @@
-// Nothing leaks out of the kernel objects of a wider instruction set: the linker keeps one copy of
-// an inline function of the same name, and that copy could be the one an older processor can not
-// run.
+// Nothing leaks out of the objects of a wider instruction set, the kernel's and the stepper's: the
+// linker keeps one copy of an inline function of the same name, and that copy could be the one an
+// older processor can not run.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -19,7 +19,8 @@ using testing::IsEmpty;
 
 struct KernelObjects {
   std::string set;
-  std::string paths;  // a colon between two
+  std::string paths;                 // a colon between two
+  std::vector<std::string> entries;  // among what they define
 };
 
 std::ostream& operator<<(std::ostream& out, const KernelObjects& objects) {
@@ -67,8 +68,8 @@ bool is_shared_data(const std::string& name) {
 }
 
 TEST_P(KernelSymbols, AreRead) {
-  EXPECT_THAT(defined(), Contains(HasSubstr(GetParam().set + "::new_kernel(")));
-  EXPECT_THAT(defined(), Contains(HasSubstr(GetParam().set + "::books_of<")));
+  for (const std::string& entry : GetParam().entries)
+    EXPECT_THAT(defined(), Contains(HasSubstr(GetParam().set + "::" + entry)));
 }
 
 TEST_P(KernelSymbols, BelongToTheInstructionSet) {
@@ -79,10 +80,12 @@ TEST_P(KernelSymbols, BelongToTheInstructionSet) {
   EXPECT_THAT(leaked, IsEmpty());
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, KernelSymbols,
-                         testing::Values(KernelObjects{"avx2", TWINCRAFT_AVX2_OBJECTS},
-                                         KernelObjects{"avx512", TWINCRAFT_AVX512_OBJECTS}),
-                         [](const auto& each) { return each.param.set; });
+INSTANTIATE_TEST_SUITE_P(
+    Of, KernelSymbols,
+    testing::Values(KernelObjects{"avx2", TWINCRAFT_AVX2_OBJECTS, {"new_kernel(", "books_of<"}},
+                    KernelObjects{"avx512", TWINCRAFT_AVX512_OBJECTS, {"new_kernel(", "books_of<"}},
+                    KernelObjects{"sums_avx2", TWINCRAFT_SUMS_AVX2_OBJECTS, {"stage_sums("}}),
+    [](const auto& each) { return each.param.set; });
 
 }  // namespace
 }  // namespace twincraft

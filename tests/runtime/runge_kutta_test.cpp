@@ -31,7 +31,9 @@ class FunctionOde : public Ode {
     rate_(time, state, rate);
   }
   void finish_step(std::span<double>) override {}
+  std::size_t written_at_once() const override { return written; }
   std::vector<double> times;
+  std::size_t written = 1;
 
  private:
   int size_;
@@ -110,6 +112,37 @@ TEST_P(EveryMethod, IsExactOnPolynomialsOfItsOrder) {
   stepper.step(0.0, 0.7);
   stepper.step(0.7, 0.9);
   EXPECT_NEAR(stepper.state()[0], std::pow(1.6, order), 1.0e-14 * std::pow(1.6, order));
+}
+
+/// States and error estimates after steps and attempts of an equation with 13 entries.
+std::vector<double> flown(const Tableau& tableau, std::size_t written) {
+  FunctionOde ode(13, [](double t, std::span<const double> y, std::span<double> rate) {
+    for (std::size_t i = 0; i < 13; ++i)
+      rate[i] = std::sin(t + static_cast<double>(i)) * y[(i + 5) % 13] - 0.3 * y[i];
+  });
+  ode.written = written;
+  RungeKutta stepper(tableau, ode);
+  for (std::size_t i = 0; i < 13; ++i) stepper.state()[i] = 1.0 / static_cast<double>(i + 1);
+  for (int i = 0; i < 20; ++i) {
+    if (tableau.adaptive && i % 2 == 1) {
+      stepper.attempt(0.1 * i, 0.1);
+      stepper.accept();
+    } else {
+      stepper.step(0.1 * i, 0.1);
+    }
+  }
+  std::vector<double> seen(stepper.state().begin(), stepper.state().end());
+  seen.insert(seen.end(), stepper.solution().carry.begin(), stepper.solution().carry.end());
+  if (tableau.adaptive) seen.insert(seen.end(), stepper.error().begin(), stepper.error().end());
+  return seen;
+}
+
+TEST_P(EveryMethod, GivesTheSameBytesInRegistersOfAnyWidth) {
+  const std::vector<double> alone = flown(tableau_, 1);
+  EXPECT_EQ(flown(tableau_, 2), alone);
+  if (!__builtin_cpu_supports("avx2")) GTEST_SKIP() << "this processor has no AVX2";
+  EXPECT_EQ(flown(tableau_, 4), alone);
+  EXPECT_EQ(flown(tableau_, 8), alone);
 }
 
 TEST_P(EveryMethod, LeavesAStateBitwiseAloneWhenQuadraturesAreAppended) {
