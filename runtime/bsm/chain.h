@@ -17,74 +17,23 @@
 // = -perp(omega), the means of G leave -omega_s mean w, and the rests, for which G w = perp(G
 // omega), (nu + ThetaDot) perp(rest omega).
 //
-// In-plane vectors are (x, z). Turning by Theta about s: (c x + s z, -s x + c z); s cross v is
-// perp(v) = (v_z, -v_x). Angles and rates of links are absolute in the mount: Theta, ThetaDot;
-// nu = omega_s + ThetaDot.
-// Tested by tests/runtime/bsm_test.cpp (against the general recursion and the dense oracle).
+// In-plane vectors are (x, z). Theta about s turns them by phi = -Theta from x to z; s cross v is
+// perp(v) = (v_z, -v_x). Where hinges and centres of mass lie on one line, the x axes of the links,
+// all that a link carries is a multiple of one vector. Angles and rates of links are absolute in
+// the mount: Theta, ThetaDot; nu = omega_s + ThetaDot. Tested by tests/runtime/bsm_test.cpp
+// (against the general recursion and the dense oracle).
 #pragma once
 
 #include <span>
 #include <vector>
 
+#include "runtime/bsm/chain_law.h"
 #include "runtime/bsm/law.h"
 #include "runtime/bsm/outside.h"
 #include "runtime/bsm/parts.h"
 #include "runtime/bsm/plan.h"
 
 namespace twincraft::bsm::TWINCRAFT_KERNEL {
-
-template <class S>
-struct Vec2 {
-  S x{}, z{};
-
-  Vec2& operator+=(const Vec2& o) {
-    x += o.x;
-    z += o.z;
-    return *this;
-  }
-  Vec2& operator-=(const Vec2& o) {
-    x -= o.x;
-    z -= o.z;
-    return *this;
-  }
-  friend Vec2 operator+(Vec2 a, const Vec2& b) { return a += b; }
-  friend Vec2 operator-(Vec2 a, const Vec2& b) { return a -= b; }
-  friend Vec2 operator*(const S& s, const Vec2& a) { return {s * a.x, s * a.z}; }
-};
-
-template <class S>
-S dot(const Vec2<S>& a, const Vec2<S>& b) {
-  return a.x * b.x + a.z * b.z;
-}
-template <class S>
-Vec2<S> perp(const Vec2<S>& v) {
-  return {v.z, -v.x};
-}
-template <class S>
-Vec2<S> in_plane(const Vec<S>& v) {
-  return {v.x, v.z};
-}
-
-/// Symmetric 2x2 in (x, z).
-template <class S>
-struct Plane {
-  S xx{}, zz{}, xz{};
-
-  Vec2<S> operator*(const Vec2<S>& v) const { return {xx * v.x + xz * v.z, xz * v.x + zz * v.z}; }
-  Sym<S> in_axes(const Vec<S>& x, const Vec<S>& z) const {
-    return Sym<S>::parallel(xx * x + xz * z, x) + Sym<S>::parallel(xz * x + zz * z, z);
-  }
-};
-
-/// What is left of a symmetric 2x2 without its mean: [half xz; xz -half].
-template <class S>
-struct Deviator {
-  S half{}, xz{};
-
-  Vec2<S> operator*(const Vec2<S>& v) const {
-    return {half * v.x + xz * v.z, xz * v.x - half * v.z};
-  }
-};
 
 /// @tparam H  scalar of the hub and of the state  @tparam S  that of the limb, see lanes.h
 template <class H, class S>
@@ -95,6 +44,7 @@ class Chain {
   explicit Chain(std::span<const ChainPlan* const> lanes, const Layout& layout) {
     const ChainPlan& first = *lanes.front();
     mount_ = first.mount;
+    is_straight_ = first.is_straight;
     links_.resize(first.links.size());
     motions_.resize(first.links.size());
     recoveries_.resize(first.links.size());
@@ -130,26 +80,28 @@ class Chain {
     const Vec<S> omega_C = transposed(dcm_WC_, mount.omega);
     omega_ = in_plane(omega_C);
     omega_s_ = omega_C.y;
-    S theta(0.0), theta_dot(0.0);
+    S phi(0.0), theta_dot(0.0), spin(0.0);
     for (std::size_t i = 0; i < links_.size(); ++i) {
       const Link& link = links_[i];
       Motion& m = motions_[i];
       const S q = gather<H, S>(state, link.position);
       const S q_dot = gather<H, S>(state, link.rate);
       m.u = link.effort - link.stiffness * (q - link.rest) - link.damping * q_dot;
-      theta += q;
+      phi -= q;
       theta_dot += q_dot;
-      m.theta = theta;
+      spin += theta_dot * link.J;
+      m.phi = phi;
       m.theta_dot = theta_dot;
     }
+    spin_ = spin;
     std::size_t i = 0;
     if constexpr (kTakesTwoAngles<S>) {
       for (; i + 1 < motions_.size(); i += 2) {
         Motion &m = motions_[i], &next = motions_[i + 1];
-        put_sines_cosines(m.theta, next.theta, m.turn, next.turn);
+        put_sines_cosines(m.phi, next.phi, m.turn, next.turn);
       }
     }
-    for (; i < motions_.size(); ++i) motions_[i].turn = sine_cosine(motions_[i].theta);
+    for (; i < motions_.size(); ++i) motions_[i].turn = sine_cosine(motions_[i].phi);
   }
 
   Moment<S> moment() const {
@@ -176,10 +128,11 @@ class Chain {
     Vec2<S> at{dot(dcm_WC_.x, a_H), dot(dcm_WC_.z, a_H)};
     S before = dot(dcm_WC_.y, omega_dot);
     for (std::size_t i = 0; i < links_.size(); ++i) {
-      const Recovery& r = recoveries_[i];
-      const S alpha = r.gain - dot(r.gain_f, at);
+      const Recovery<S>& r = recoveries_[i];
+      const S alpha = r.gain - r.gain_f.x * at.x - r.gain_f.z * at.z;
       scatter<H, S>(alpha - before, rate, links_[i].rate);
-      at += alpha * perp(r.next) + r.bias;
+      at = at + r.bias;
+      at = {at.x + alpha * r.next.z, at.z - alpha * r.next.x};
       before = alpha;
     }
   }
@@ -234,89 +187,10 @@ class Chain {
     std::vector<ElementNow<S>> elements;
   };
   struct Motion {
-    SineCosine<S> turn;  // of Theta
-    S theta, theta_dot;
-    S u;  // torque on the joint
+    SineCosine<S> turn;  // of phi
+    S phi, theta_dot;    // phi = -Theta
+    S u;                 // torque on the joint
   };
-  /// alpha = gain - gain_f . a, and a of the next hinge is a + alpha perp(next) + bias
-  struct Recovery {
-    S gain;
-    Vec2<S> gain_f;
-    Vec2<S> next, bias;
-  };
-
-  /// What the locked chain from a link on asks for against the plane, about that link's hinge and
-  /// as if that did not accelerate. Its mass and the mean of its inertia are constants.
-  struct Locked {
-    Vec2<S> moment;     // [kg m]
-    Deviator<S> G;      // [kg m^2] sum over the links, each about its own hinge
-    Plane<S> apart;     // [kg m^2] what the distance of hinges adds
-    S f_s{};            // [N] bias force along s
-    Vec2<S> lever;      // [N m] its moment: the torque is -perp(lever)
-    Deviator<S> rates;  // [kg m^2/s] sum of (nu + ThetaDot) G
-    S spin{};           // [kg m^2/s] sum of ThetaDot J
-    Vec2<S> pulled;     // [N m] in-plane torque of pulls
-
-    /// From the next hinge to the link's own, d away, which makes the next one and all the mass
-    /// beyond accelerate by a_s along s.
-    void reach(const S& mass, const Vec2<S>& d, const S& a_s) {
-      const Vec2<S> there = moment + mass * d;
-      const Vec2<S> both = moment + there;
-      lever += a_s * there + f_s * d;
-      f_s += mass * a_s;
-      apart.xx += d.z * both.z;
-      apart.zz += d.x * both.x;
-      apart.xz -= d.x * moment.z + d.z * there.x;
-      moment = there;
-    }
-    /// A link's own part: its first moment, its inertia, rate = nu + ThetaDot.
-    void add(const Vec2<S>& b, const Deviator<S>& own, const S& rate, const S& f) {
-      moment += b;
-      f_s += f;
-      G.half += own.half;
-      G.xz += own.xz;
-      rates.half += rate * own.half;
-      rates.xz += rate * own.xz;
-    }
-  };
-
-  /// What the free chain from a link on asks for in the plane about that link's hinge:
-  /// f = h alpha + M a + f,  tau = J alpha + h.a + tau. Eliminated, it is f = M a + f.
-  struct Free {
-    Plane<S> M;
-    Vec2<S> f, h;
-    S J{}, tau{};
-
-    /// From the next hinge to the link's own, d away.
-    void reach(const Vec2<S>& d, const Vec2<S>& bias) {
-      const Vec2<S> across = perp(d);
-      f += M * bias;
-      h = M * across;
-      J = dot(across, h);
-      tau += dot(across, f);
-    }
-    /// By the torque u on the joint, which the link before then feels.
-    void eliminate(const S& mass, const S& u, Recovery& recovery) {
-      const S inverse = S(1.0) / J;
-      recovery.gain = inverse * (u - tau);
-      recovery.gain_f = inverse * h;
-      M.xx += mass - h.x * recovery.gain_f.x;
-      M.zz += mass - h.z * recovery.gain_f.z;
-      M.xz -= h.x * recovery.gain_f.z;
-      f += recovery.gain * h;
-      tau = u;
-    }
-  };
-
-  static Vec2<S> turned(const Vec2<S>& v, const SineCosine<S>& by) {
-    return {by.cosine * v.x + by.sine * v.z, by.cosine * v.z - by.sine * v.x};
-  }
-  static Deviator<S> turned(const Deviator<S>& G, const SineCosine<S>& by) {
-    const S twice = by.sine + by.sine;
-    const S sine = twice * by.cosine, cosine = S(1.0) - twice * by.sine;  // of the double angle
-    return {cosine * G.half + sine * G.xz, cosine * G.xz - sine * G.half};
-  }
-
   void set(std::size_t l, const ChainPlan& plan, const Layout& layout) {
     set_lane(dcm_PC_, l, plan.dcm_PC);
     set_lane(r_HP_P_, l, plan.r_HP_P);
@@ -373,67 +247,60 @@ class Chain {
     }
   }
 
-  /// The rate of the mount, as links feel it in the plane.
-  struct Turning {
-    S xx, zz, product, twice_product, difference;
-
-    explicit Turning(const Vec2<S>& omega)
-        : xx(omega.z * omega.z), zz(omega.x * omega.x), product(omega.x * omega.z) {
-      twice_product = product + product;
-      difference = xx - zz;
-    }
-    /// The part in the plane of omega x (omega x v), of a v that turns by nu in it.
-    Vec2<S> bias(const S& nu2, const Vec2<S>& v) const {
-      return {product * v.z - (xx + nu2) * v.x, product * v.x - (zz + nu2) * v.z};
-    }
-    S torque(const Deviator<S>& G) const { return G.half * twice_product + G.xz * difference; }
-  };
-
+  Law<S> law_about_root(const Field<S>* field) {
+    return is_straight_ ? law_about_root<true>(field) : law_about_root<false>(field);
+  }
+  template <bool kIsStraight>
   Law<S> law_about_root(const Field<S>* field) {
     if (field != nullptr) pull(*field);
-    const Turning turning(omega_);
-    Locked locked;
-    Free free;
-    for (std::size_t i = links_.size(); i-- > 0;) {
+    const Turning<S> turning(omega_);
+    LockedChain<S> locked;
+    FreeChain<S> free;
+    const auto take = [&](std::size_t i, auto is_last) __attribute__((always_inline)) {
       const Link& link = links_[i];
       const Motion& m = motions_[i];
-      Recovery& recovery = recoveries_[i];
+      Recovery<S>& recovery = recoveries_[i];
       const S nu = omega_s_ + m.theta_dot, nu2 = nu * nu;
       const S rate = nu + m.theta_dot;
-      if (i + 1 < links_.size()) {
-        recovery.next = turned(link.next, m.turn);
-        recovery.bias = turning.bias(nu2, recovery.next);
-        locked.reach(link.mass_beyond, recovery.next, rate * dot(omega_, recovery.next));
-        free.reach(recovery.next, recovery.bias);
+      const Carried<S> along = turning.carry({m.turn.cosine, m.turn.sine}, nu2);
+      const auto carried = [&](const Vec2<S>& v) {
+        if constexpr (kIsStraight) return v.x * along;
+        return turning.carry(turned(v, m.turn), nu2);
+      };
+      const Carried<S> b = carried(link.first_moment);
+      const Deviator<S> G = turned<!kIsStraight>(link.G, m.turn);
+      if constexpr (!is_last) {
+        const Carried<S> next = carried(link.next);
+        recovery.next = next.v;
+        recovery.bias = next.bias;
+        locked.reach(link.mass_beyond, next.v, rate * next.leaves);
+        free.reach(next.v, next.bias, link.J);
+      } else {
+        free.J = link.J;
       }
-      const Vec2<S> b = turned(link.first_moment, m.turn);
-      const Deviator<S> G = turned(link.G, m.turn);
-      locked.add(b, G, rate, rate * dot(omega_, b));
-      locked.spin += m.theta_dot * link.J;
-      free.f += turning.bias(nu2, b);
+      locked.add(b.v, G, rate, rate * b.leaves);
+      if (field != nullptr) {
+        locked.feel(pulls_[i]);
+        free.feel(pulls_[i]);
+      }
+      free.f += b.bias;
       free.tau += turning.torque(G);
-      if (field != nullptr) feel(pulls_[i], locked, free);
-      free.h += perp(b);
-      free.J += link.J;
+      free.h += perp(b.v);
       free.eliminate(link.mass, m.u, recovery);
-    }
+    };
+    std::size_t i = links_.size() - 1;
+    take(i, std::true_type());
+    while (i-- > 0) take(i, std::false_type());
     return law_of(locked, free);
   }
 
-  static void feel(const Pull<S>& pull, Locked& locked, Free& free) {
-    locked.f_s -= pull.force.y;
-    locked.pulled += in_plane(pull.torque);
-    free.f -= in_plane(pull.force);
-    free.tau -= pull.torque.y;
-  }
-
   /// Both together, in working axes.
-  Law<S> law_of(const Locked& locked, const Free& free) const {
+  [[gnu::always_inline]] Law<S> law_of(const LockedChain<S>& locked,
+                                       const FreeChain<S>& free) const {
     const Vec2<S> w = Vec2<S>{} - perp(omega_);  // omega x s
     const Vec2<S> n0 = perp(locked.rates * omega_ - locked.lever) +
-                       (omega_s_ * (J_ - mean_) + locked.spin) * w - locked.pulled;
-    const Plane<S> G{mean_ + locked.G.half + locked.apart.xx,
-                     mean_ - locked.G.half + locked.apart.zz, locked.G.xz + locked.apart.xz};
+                       (omega_s_ * (J_ - mean_) + spin_) * w - locked.pulled;
+    const Plane<S> G{mean_ + locked.inertia.xx, mean_ + locked.inertia.zz, locked.inertia.xz};
     const Vec<S>&x = dcm_WC_.x, &along = dcm_WC_.y, &z = dcm_WC_.z;
     const Vec<S> lever = locked.moment.x * z - locked.moment.z * x;  // S cross s
     return {G.in_axes(x, z),
@@ -444,15 +311,17 @@ class Chain {
   }
 
   int mount_ = -1;
+  bool is_straight_ = false;
   Vec<S> r_HP_P_, r_HP_, r_HB_, a_bias_;
   Mat<S> dcm_PC_, dcm_WC_;
   std::vector<Link> links_;
   std::vector<Motion> motions_;
-  std::vector<Recovery> recoveries_;
+  std::vector<Recovery<S>> recoveries_;
   std::vector<Pull<S>> pulls_;
   S mass_{}, mean_{}, J_{};  // sums over all links; mean_: of (G.xx + G.zz) / 2
   S omega_s_{};              // rate of the mount along s
   Vec2<S> omega_;            // and in the plane
+  S spin_{};                 // [kg m^2/s] sum of ThetaDot J
 };
 
 }  // namespace twincraft::bsm::TWINCRAFT_KERNEL

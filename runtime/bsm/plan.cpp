@@ -95,6 +95,18 @@ std::optional<PlanarLinkPlan> planar_link(const Candidates& of, std::size_t i,
   return plan;
 }
 
+/// See ChainPlan::is_straight.
+bool straighten(ChainPlan& chain) {
+  const auto is_along = [](const PlanarLinkPlan& link) {
+    return std::abs(link.next[1]) <= kZero * std::abs(link.next[0]) &&
+           std::abs(link.first_moment[1]) <= kZero * std::abs(link.first_moment[0]) &&
+           std::abs(link.G[2]) <= kZero * (link.G[0] + link.G[1]);
+  };
+  if (!std::ranges::all_of(chain.links, is_along)) return false;
+  for (PlanarLinkPlan& link : chain.links) link.next[1] = link.first_moment[1] = link.G[2] = 0.0;
+  return true;
+}
+
 /// The whole subtree from link `first` on as a planar chain, if it is one: each link the only child
 /// of the one before, hinges parallel, everything balanced about their plane, no rotors or loads,
 /// masses and dampings constant.
@@ -121,6 +133,7 @@ std::optional<ChainPlan> planar_chain(const Candidates& of, std::size_t first) {
     if (!planar) return std::nullopt;
     chain.links.push_back(std::move(*planar));
   }
+  chain.is_straight = straighten(chain);
   return chain;
 }
 
@@ -233,10 +246,10 @@ bool are_alike(const LimbPlan& a, const LimbPlan& b) {
            x.elements.size() == y.elements.size() && x.rotors.size() == y.rotors.size();
   };
   const auto like_chains = [](const ChainPlan& x, const ChainPlan& y) {
-    return x.mount == y.mount && std::equal(x.links.begin(), x.links.end(), y.links.begin(),
-                                            y.links.end(), [](const auto& p, const auto& q) {
-                                              return p.elements.size() == q.elements.size();
-                                            });
+    return x.mount == y.mount && x.is_straight == y.is_straight &&
+           std::equal(
+               x.links.begin(), x.links.end(), y.links.begin(), y.links.end(),
+               [](const auto& p, const auto& q) { return p.elements.size() == q.elements.size(); });
   };
   return a.kind == b.kind &&
          std::equal(a.links.begin(), a.links.end(), b.links.begin(), b.links.end(), like_links) &&

@@ -42,6 +42,8 @@ struct ChainPlan {
   Vector3d r_HP_P;  // [m] root hinge, mount axes
   Matrix3d dcm_PC;  // chain to mount axes
   std::vector<PlanarLinkPlan> links;
+  /// Hinges, centres of mass and principal axes lie on the x axes of the links: no z, no xz.
+  bool is_straight = false;
 };
 
 /// Whose steps of the recursion are written out.

@@ -261,7 +261,11 @@ class Vehicle {
   }
 
   void begin_hub_law(const Vec<H>& omega, const Vec<H>& spin) {
-    if (!is_rigid_) hub_ = hub_alone_;
+    if (!is_rigid_) {
+      hub_.J = hub_alone_.J;
+      hub_.M = hub_alone_.M;
+      hub_.H = hub_alone_.H;
+    }
     hub_.n0 = cross(omega, mass_.J * omega + spin) + (motor_torque_ - held_.torque);
     hub_.f0 = cross(omega, cross(omega, mass_.moment)) - held_.force;
   }

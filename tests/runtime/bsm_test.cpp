@@ -178,8 +178,13 @@ TEST(Kernel, PutsAForceAtTheCenterOfMass) {
   }
 }
 
+/// Whether hinges and centres of mass of an array lie on one line, its principal axis.
+enum class Shape { kBent, kStraight };
+
 /// An array of unlike segments on a skew hinge, beside a slide that carries another one.
-Assembly random_arrays(std::mt19937_64& random, int segments_on_hub = 5) {
+Assembly random_arrays(std::mt19937_64& random, int segments_on_hub = 5,
+                       Shape shape = Shape::kBent) {
+  const double off_line = shape == Shape::kBent ? 0.1 : 0.0;
   std::uniform_real_distribution<double> uniform(0.5, 1.5);
   Assembly assembly = test::random_assembly(random, 0, 1);
   const auto add_array = [&](int mount, int segments) {
@@ -188,7 +193,7 @@ Assembly random_arrays(std::mt19937_64& random, int segments_on_hub = 5) {
       link.parent = i == 0 ? mount : static_cast<int>(assembly.links.size()) - 1;
       link.joint.axis_L = Vector3d::UnitY();
       link.joint.r_HP_P = i == 0 ? test::random_vector(random, 1.0)
-                                 : Vector3d(uniform(random), 0.0, 0.2 * uniform(random));
+                                 : Vector3d(uniform(random), 0.0, 2.0 * off_line * uniform(random));
       if (i == 0) {
         const Vector3d turn = test::random_vector(random, 1.0);
         link.joint.dcm_PL0 =
@@ -198,8 +203,8 @@ Assembly random_arrays(std::mt19937_64& random, int segments_on_hub = 5) {
       link.joint.damping = uniform(random);
       link.joint.effort = Schedule::constant(uniform(random));
       Matrix3d I = Vector3d(uniform(random), uniform(random), uniform(random)).asDiagonal();
-      I(0, 2) = I(2, 0) = 0.1;
-      link.elements = {{"s", uniform(random), Vector3d(uniform(random), 0.0, 0.1), I}};
+      I(0, 2) = I(2, 0) = off_line;
+      link.elements = {{"s", uniform(random), Vector3d(uniform(random), 0.0, off_line), I}};
       assembly.links.push_back(link);
     }
   };
@@ -219,8 +224,9 @@ TEST(Chain, EqualsTheGeneralRecursionOnRandomArrays) {
   // Near enough that every link feels another field.
   const Gravity near{1.0e4, GravityLaw::kBodyCom, GravityLaw::kNone};
   for (const Gravity& gravity : {Gravity{}, near}) {
-    for (int trial = 0; trial < 200; ++trial) {
-      const Assembly alone = random_arrays(random);
+    for (int trial = 0; trial < 400; ++trial) {
+      const Shape shape = trial < 200 ? Shape::kBent : Shape::kStraight;
+      const Assembly alone = random_arrays(random, 5, shape);
       const Assembly assembly = trial % 2 == 0 ? alone : with_twins(alone, random);
       const OracleState state = test::random_state(random, assembly);
       KernelOf planar(assembly, ChainPath::kPlanar, gravity);
@@ -239,18 +245,46 @@ TEST(Chain, EqualsTheGeneralRecursionOnRandomArrays) {
 TEST(Chain, OfAnyLengthHasUnlikeLinksAndEqualsTheGeneralRecursion) {
   std::mt19937_64 random(14);
   for (const int segments : {1, 2, 3, 4, 7, 8, 15, 16, 32, 64}) {
-    const Assembly assembly = random_arrays(random, segments);
-    const OracleState state = test::random_state(random, assembly);
-    const bsm::HeldInputs held = inputs_of(assembly);
-    for (const bsm::InstructionSet set : bsm::instruction_sets()) {
-      KernelOf planar(assembly, ChainPath::kPlanar, {}, set);
-      KernelOf general(assembly, ChainPath::kGeneral, {}, set);
-      ASSERT_EQ(planar.plan().planar_links(), static_cast<std::size_t>(segments) + 3u);
-      const Eigen::VectorXd a = planar.accelerations(state, held);
-      const Eigen::VectorXd b = general.accelerations(state, held);
-      EXPECT_LT((a - b).norm(), 1e-12 * b.norm()) << segments << ", " << bsm::name_of(set);
+    for (const Shape shape : {Shape::kBent, Shape::kStraight}) {
+      const Assembly assembly = random_arrays(random, segments, shape);
+      const OracleState state = test::random_state(random, assembly);
+      const bsm::HeldInputs held = inputs_of(assembly);
+      for (const bsm::InstructionSet set : bsm::instruction_sets()) {
+        KernelOf planar(assembly, ChainPath::kPlanar, {}, set);
+        KernelOf general(assembly, ChainPath::kGeneral, {}, set);
+        ASSERT_EQ(planar.plan().planar_links(), static_cast<std::size_t>(segments) + 3u);
+        const Eigen::VectorXd a = planar.accelerations(state, held);
+        const Eigen::VectorXd b = general.accelerations(state, held);
+        EXPECT_LT((a - b).norm(), 1e-12 * b.norm()) << segments << ", " << bsm::name_of(set);
+      }
     }
   }
+}
+
+TEST(Chain, IsStraightIfEveryLinkIs) {
+  std::mt19937_64 random(15);
+  const auto is_straight = [&random](auto change) {
+    Assembly assembly = random_arrays(random, 5, Shape::kStraight);
+    change(assembly.links[3].elements[0], assembly.links[4].joint);  // the third of the array
+    const KernelOf kernel(assembly);
+    EXPECT_EQ(kernel.plan().limbs.size(), 2u);
+    EXPECT_TRUE(kernel.plan().limbs[1].chains[0].is_straight) << "that on the slide";
+    return kernel.plan().limbs[0].chains[0].is_straight;
+  };
+  EXPECT_TRUE(is_straight([](MassElement&, Joint&) {}));
+  // Against the line is on it.
+  EXPECT_TRUE(is_straight([](MassElement& e, Joint& next) {
+    e.r_EL_L.x() *= -1.0;
+    next.r_HP_P.x() *= -1.0;
+  }));
+  EXPECT_FALSE(is_straight([](MassElement& e, Joint&) { e.r_EL_L.z() = 1e-6; }));
+  EXPECT_FALSE(is_straight([](MassElement&, Joint& next) { next.r_HP_P.z() = 1e-6; }));
+  EXPECT_FALSE(
+      is_straight([](MassElement& e, Joint&) { e.I_PntE_L(0, 2) = e.I_PntE_L(2, 0) = 1e-6; }));
+  // A link that is turned at angle zero bends the line.
+  EXPECT_FALSE(is_straight([](MassElement&, Joint& next) {
+    next.dcm_PL0 = Eigen::AngleAxisd(0.1, Vector3d::UnitY()).toRotationMatrix();
+  }));
 }
 
 TEST(Chain, ServesOnlyTailsThatAreBalancedAboutTheirPlane) {
