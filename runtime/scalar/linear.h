@@ -7,10 +7,27 @@
 
 namespace twincraft::TWINCRAFT_KERNEL {
 
+/// GCC 12 copies a struct of registers wider than these piece by piece, and who then reads it waits
+/// until all pieces have left the store buffer. Of wide ones copies are written number by number.
+template <class S>
+inline constexpr bool kIsWide = sizeof(S) > sizeof(Pair);
+
 template <KernelScalar S>
 struct Vec {
   S x{}, y{}, z{};
 
+  Vec() = default;
+  Vec(const S& x_of, const S& y_of, const S& z_of) : x(x_of), y(y_of), z(z_of) {}
+  Vec(const Vec&) = default;
+  Vec& operator=(const Vec&) = default;
+  Vec(const Vec& o) requires kIsWide<S> : x(o.x), y(o.y), z(o.z) {}
+  // NOLINTNEXTLINE(modernize-use-equals-default)
+  Vec& operator=(const Vec& o) requires kIsWide<S> {
+    x = o.x;
+    y = o.y;
+    z = o.z;
+    return *this;
+  }
   Vec& operator+=(const Vec& o) {
     x += o.x;
     y += o.y;
@@ -84,7 +101,7 @@ struct Mat {
 /// v + m a, fused like plus_cross().
 template <class S, class M>
 [[gnu::always_inline]] inline Vec<S> plus_product(const Vec<S>& v, const M& m, const Vec<S>& a) {
-  const Vec<S> x = m.column_x(), y = m.column_y(), z = m.column_z();
+  const Vec<S>&x = m.column_x(), &y = m.column_y(), &z = m.column_z();
   return {v.x + x.x * a.x + y.x * a.y + z.x * a.z, v.y + x.y * a.x + y.y * a.y + z.y * a.z,
           v.z + x.z * a.x + y.z * a.y + z.z * a.z};
 }
@@ -114,6 +131,25 @@ Mat<S> cross_matrix(const Vec<S>& v) {
 template <KernelScalar S>
 struct Sym {
   S xx{}, yy{}, zz{}, xy{}, xz{}, yz{};
+
+  Sym() = default;
+  Sym(const S& xx_of, const S& yy_of, const S& zz_of, const S& xy_of, const S& xz_of,
+      const S& yz_of)
+      : xx(xx_of), yy(yy_of), zz(zz_of), xy(xy_of), xz(xz_of), yz(yz_of) {}
+  Sym(const Sym&) = default;
+  Sym& operator=(const Sym&) = default;
+  Sym(const Sym& o) requires kIsWide<S>
+      : xx(o.xx), yy(o.yy), zz(o.zz), xy(o.xy), xz(o.xz), yz(o.yz) {}
+  // NOLINTNEXTLINE(modernize-use-equals-default)
+  Sym& operator=(const Sym& o) requires kIsWide<S> {
+    xx = o.xx;
+    yy = o.yy;
+    zz = o.zz;
+    xy = o.xy;
+    xz = o.xz;
+    yz = o.yz;
+    return *this;
+  }
 
   static Sym isotropic(const S& value) { return {value, value, value, S(0.0), S(0.0), S(0.0)}; }
   /// The upper triangle of u v^T, where that or the sum it goes into is symmetric.
