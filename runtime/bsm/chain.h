@@ -80,10 +80,13 @@ class Chain {
     const Vec<S> omega_C = transposed(dcm_WC_, mount.omega);
     omega_ = in_plane(omega_C);
     omega_s_ = omega_C.y;
+    // Local, or the compiler asks for them again after every store of a register.
+    const std::span<const Link> links = links_;
+    const std::span<Motion> motions = motions_;
     S phi(0.0), theta_dot(0.0), spin(0.0);
-    for (std::size_t i = 0; i < links_.size(); ++i) {
-      const Link& link = links_[i];
-      Motion& m = motions_[i];
+    for (std::size_t i = 0; i < links.size(); ++i) {
+      const Link& link = links.data()[i];
+      Motion& m = motions.data()[i];
       const S q = gather<H, S>(state, link.position);
       const S q_dot = gather<H, S>(state, link.rate);
       m.u = link.effort - link.stiffness * (q - link.rest) - link.damping * q_dot;
@@ -96,12 +99,12 @@ class Chain {
     spin_ = spin;
     std::size_t i = 0;
     if constexpr (kTakesTwoAngles<S>) {
-      for (; i + 1 < motions_.size(); i += 2) {
-        Motion &m = motions_[i], &next = motions_[i + 1];
+      for (; i + 1 < motions.size(); i += 2) {
+        Motion &m = motions.data()[i], &next = motions.data()[i + 1];
         put_sines_cosines(m.phi, next.phi, m.turn, next.turn);
       }
     }
-    for (; i < motions_.size(); ++i) motions_[i].turn = sine_cosine(motions_[i].phi);
+    for (; i < motions.size(); ++i) motions.data()[i].turn = sine_cosine(motions.data()[i].phi);
   }
 
   Moment<S> moment() const {
@@ -127,10 +130,12 @@ class Chain {
     const Vec<S> a_H = a + cross(omega_dot, r_HP_) + a_bias_;
     Vec2<S> at{dot(dcm_WC_.x, a_H), dot(dcm_WC_.z, a_H)};
     S before = dot(dcm_WC_.y, omega_dot);
-    for (std::size_t i = 0; i < links_.size(); ++i) {
-      const Recovery<S>& r = recoveries_[i];
+    const std::span<const Link> links = links_;
+    const std::span<const Recovery<S>> recoveries = recoveries_;
+    for (std::size_t i = 0; i < links.size(); ++i) {
+      const Recovery<S>& r = recoveries.data()[i];
       const S alpha = r.gain - r.gain_f.x * at.x - r.gain_f.z * at.z;
-      scatter<H, S>(alpha - before, rate, links_[i].rate);
+      scatter<H, S>(alpha - before, rate, links.data()[i].rate);
       at = at + r.bias;
       at = {at.x + alpha * r.next.z, at.z - alpha * r.next.x};
       before = alpha;
@@ -253,13 +258,16 @@ class Chain {
   template <bool kIsStraight>
   Law<S> law_about_root(const Field<S>* field) {
     if (field != nullptr) pull(*field);
+    const std::span<const Link> links = links_;
+    const std::span<const Motion> motions = motions_;
+    const std::span<Recovery<S>> recoveries = recoveries_;
     const Turning<S> turning(omega_);
     LockedChain<S> locked;
     FreeChain<S> free;
     const auto take = [&](std::size_t i, auto is_last) __attribute__((always_inline)) {
-      const Link& link = links_[i];
-      const Motion& m = motions_[i];
-      Recovery<S>& recovery = recoveries_[i];
+      const Link& link = links.data()[i];
+      const Motion& m = motions.data()[i];
+      Recovery<S>& recovery = recoveries.data()[i];
       const S nu = omega_s_ + m.theta_dot, nu2 = nu * nu;
       const S rate = nu + m.theta_dot;
       const Carried<S> along = turning.carry({m.turn.cosine, m.turn.sine}, nu2);

@@ -191,9 +191,9 @@ class Vehicle {
     const Vec<S> omega_dot_S = spread(omega_dot), a_S = spread(a);
     limbs_.for_each([&](auto& group) { group.limb.recover(omega_dot_S, a_S, rate); });
     put_hub_rates(chart, state, dcm_NB_ * a + g_N_, omega_dot, rate);
-    for (int i = layout_.joint; i < layout_.joint_rate; ++i) {
-      put_entry(rate, i, entry<H>(state, i + layout_.joint_rate - layout_.joint));
-    }
+    const Layout layout = layout_;  // or every store would have it read again
+    for (int i = layout.joint, from = layout.joint_rate; i < layout.joint_rate; ++i, ++from)
+      put_entry(rate, i, entry<H>(state, from));
   }
 
   // Apart from derivative_in(): most vehicles have no such force.
