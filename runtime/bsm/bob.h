@@ -69,8 +69,8 @@ class Bob : public Particle<H, S> {
     inverse_reach_ = inverse_length_ / cosine;
 
     const S swing = length_ * cosine * phi_dot, nod = length_ * theta_dot;
-    v_joint_ = swing * t1_ + nod * t2_;
-    a_bias_ = cross(omega, cross(omega, r_) + v_joint_ + v_joint_) - (swing * phi_dot) * ahead -
+    w_ = swing * t1_ + nod * t2_;
+    a_bias_ = cross(omega, cross(omega, r_) + w_ + w_) - (swing * phi_dot) * ahead -
               ((sine + sine) * (nod * phi_dot)) * t1_ - (nod * theta_dot) * e_;
     phi_damping_ = phi_.damping * cosine * cosine;
     f1_ = inverse_reach_ * (phi_.pull(phi) - phi_damping_ * phi_dot);
@@ -103,15 +103,15 @@ class Bob : public Particle<H, S> {
     return (phi_.effort - phi_damping_ * phi_dot) * phi_dot +
            (theta_.effort - theta_.damping * theta_dot) * theta_dot;
   }
-  Outside<S> loads(const Vec<S>*) const { return {}; }
-  void trace(const Number<H>*, const Vec<S>& omega) { v_ = cross(omega, r_) + v_joint_; }
+  void trace(const Number<H>*) {}
+  void add_loads(const Vec<S>*, Outside<S>&) const {}
 
  private:
   using Base = Particle<H, S>;
   using Base::inverse_mass_;
   using Base::mass_;
   using Base::r_;
-  using Base::v_;
+  using Base::w_;
 
   struct Hinge {
     S stiffness{}, damping{}, rest{}, effort{};
@@ -150,8 +150,7 @@ class Bob : public Particle<H, S> {
   Vec<S> ahead_, aside_, up_;  // e at zero angles, and where phi and theta turn it to
   S length_{}, inverse_length_{};
   Vec<S> e_, t1_, t2_, g_;
-  Vec<S> v_joint_;  // [m/s] seen in hub axes
-  Vec<S> a_bias_;   // [m/s^2] without the joints' accelerations, and less than what it falls with
+  Vec<S> a_bias_;  // [m/s^2] without the joints' accelerations, and less than what it falls with
   S inverse_reach_{};  // [1/m] 1 / (L cos theta)
   S phi_damping_{};    // [N m s/rad] as it is now
   S f1_{}, f2_{};      // [N]

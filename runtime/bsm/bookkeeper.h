@@ -3,8 +3,6 @@
 // Tested by tests/runtime/books_test.cpp.
 #pragma once
 
-#include <type_traits>
-
 #include "runtime/bsm/vehicle.h"
 
 namespace twincraft::bsm::TWINCRAFT_KERNEL {
@@ -21,8 +19,8 @@ class Bookkeeper {
     BooksOf<H> books{inner, inner, {}, {}};
     const bool changes = acts() || vehicle_.tanks_.flow();
     if (!falls() && !changes) return books;
-    const Moment<H> mass = moment();
-    if (falls()) books.force_N = mass.mass * fall();
+    const MassMotion<H> mass = motion();
+    if (falls()) books.force_N = mass.moment.mass * fall();
     if (changes) book_changes(mass, books);
     return books;
   }
@@ -37,25 +35,32 @@ class Bookkeeper {
   H inner_power() const {
     H power(0.0);
     for (const RotorOn<H, H>& rotor : vehicle_.rotors_) power += rotor.power(state_);
-    add_limbs([&](const auto& limb) { return limb.inner_power(state_); }, power);
-    return power;
+    return power + of_limbs<Power>([&](const auto& limb, Power<S>& sum) {
+                     sum.power += limb.inner_power(state_);
+                   }).power;
   }
 
-  Moment<H> moment() const {
-    Moment<H> sum{vehicle_.mass_.mass, vehicle_.mass_.moment};
-    add_limbs([](const auto& limb) { return limb.moment(); }, sum);
-    return sum;
+  /// Lets limbs know their velocities.
+  MassMotion<H> motion() {
+    const Moment<H> hub{vehicle_.mass_.mass, vehicle_.mass_.moment};
+    MassMotion<H> all = of_limbs<MassMotion>([&](auto& limb, MassMotion<S>& sum) {
+      limb.trace(state_);
+      limb.add_motion(sum);
+    });
+    all.moment += hub;
+    return all;
   }
 
-  void book_changes(const Moment<H>& mass, BooksOf<H>& books) {
-    const H inverse_mass = H(1.0) / mass.mass;
-    Tally<H> tally;
-    tally.r_CB = inverse_mass * mass.moment;
-    tally.v_CB = inverse_mass * momentum();
-    const Mat<H> dcm_NB = vehicle_.turns_alone_ ? attitude() : vehicle_.dcm_NB_;
-    if (loads_act()) tally.add_loads(loads(tally.r_CB), books);
-    if (vehicle_.has_elements_) tally.add_gravity(gravity(vehicle_.field_), dcm_NB, books);
-    if (vehicle_.tanks_.flow()) tally.add_leaving(leaving(vehicle_.field_, tally.r_CB), books);
+  void book_changes(const MassMotion<H>& mass, BooksOf<H>& books) const {
+    const H inverse_mass = H(1.0) / mass.moment.mass;
+    const Vec<H> r_CB = inverse_mass * mass.moment.moment;
+    Tally<H> tally{omega_, r_CB, plus_cross(inverse_mass * mass.momentum, omega_, r_CB)};
+    Mat<H> attitude_alone;
+    if (vehicle_.turns_alone_) attitude_alone = attitude();
+    const Mat<H>& dcm_NB = vehicle_.turns_alone_ ? attitude_alone : vehicle_.dcm_NB_;
+    if (loads_act()) tally.add_loads(loads(r_CB), books);
+    if (vehicle_.has_elements_) tally.add_gravity(gravity(), dcm_NB, books);
+    if (vehicle_.tanks_.flow()) tally.add_leaving(leaving(r_CB), books);
     if (loads_act() || vehicle_.tanks_.flow())
       tally.book_driving(dcm_NB, vehicle_.vector(state_, 3), books);
     tally.book_own(dcm_NB, books);
@@ -72,50 +77,43 @@ class Bookkeeper {
                : Quaternion<H>(state_, Layout::kAttitude).dcm_NB();
   }
 
-  /// Lets limbs know their velocities.
-  Vec<H> momentum() {
-    const Vec<S> omega = vehicle_.spread(omega_);
-    Vec<H> sum = cross(omega_, vehicle_.mass_.moment);
-    const auto of = [&](auto& limb) {
-      limb.trace(state_, omega);
-      return limb.momentum();
-    };
-    add_limbs(of, sum);
-    return sum;
-  }
-
   Outside<H> loads(const Vec<H>& r_CB) const {
-    Pull<H> on_hub = vehicle_.held_;
-    if (vehicle_.push_.acts()) on_hub.add(vehicle_.pushed_);
-    if (vehicle_.acts_at_center_) on_hub.add(vehicle_.held_at_center_, r_CB);
-    Outside<H> outside;
-    outside.add_on_hub(on_hub, omega_);
+    Outside<H> outside{vehicle_.held_};
+    if (vehicle_.push_.acts()) outside.pull.add(vehicle_.pushed_);
+    if (vehicle_.acts_at_center_) outside.pull.add(vehicle_.held_at_center_, r_CB);
     if (!vehicle_.acts_on_limbs_ && !vehicle_.push_.acts()) return outside;
     const Vec<S> r_CB_S = vehicle_.spread(r_CB);
     const Vec<S>* center = vehicle_.acts_at_center_ ? &r_CB_S : nullptr;
-    add_limbs([&](const auto& limb) { return limb.loads(center); }, outside);
+    outside +=
+        of_limbs<Outside>([&](const auto& limb, Outside<S>& sum) { limb.add_loads(center, sum); });
     return outside;
   }
 
-  Outside<H> gravity(const Field<H>& field) const {
-    Outside<H> outside;
+  Outside<H> gravity() const {
+    const Field<S> field = vehicle_.spread(vehicle_.field_);
+    Outside<H> outside =
+        of_limbs<Outside>([&](const auto& limb, Outside<S>& sum) { limb.add_gravity(field, sum); });
+    if (vehicle_.pulls_on_hub_) add_gravity_hub(outside);
+    return outside;
+  }
+  void add_gravity_hub(Outside<H>& sum) const {
+    const Field<H>& field = vehicle_.field_;
     for (const ElementNow<H>& element : vehicle_.elements_) {
-      Pull<H> pull;
-      pull.add(element.mass * field.difference(element.r_EL), element.r_EL);
-      outside.add_on_hub(pull, omega_);
-      if (field.has_gradient)
-        outside.add_turn(field.gradient_torque(element.r_EL, element.I), omega_);
+      sum.pull.add(element.mass * field.difference(element.r_EL), element.r_EL);
+      if (!field.has_gradient) continue;
+      const Vec<H> torque = field.gradient_torque(element.r_EL, element.I);
+      sum.pull.torque += torque;
+      sum.turn_power += dot(torque, omega_);
     }
-    const Field<S> field_S = vehicle_.spread(field);
-    add_limbs([&](const auto& limb) { return limb.gravity(field_S); }, outside);
-    return outside;
   }
 
-  Leaving<H> leaving(const Field<H>& field, const Vec<H>& r_CB) const {
+  Leaving<H> leaving(const Vec<H>& r_CB) const {
+    const Vec<S> omega = vehicle_.spread(omega_);
+    const Field<H>& field = vehicle_.field_;
     const Field<S> field_S = vehicle_.spread(field);
     const Field<S>* pulls = vehicle_.has_elements_ ? &field_S : nullptr;
-    Leaving<H> sum;
-    add_limbs([&](const auto& limb) { return limb.leaving(pulls); }, sum);
+    Leaving<H> sum = of_limbs<Leaving>(
+        [&](const auto& limb, Leaving<S>& of) { limb.add_leaving(omega, pulls, of); });
     add_leaving_hub(field, sum);
     if (!falls()) return sum;
     const Moment<H>& lost = sum.moment;
@@ -132,25 +130,29 @@ class Bookkeeper {
       sum.lift(draining.element_rate(e), vehicle_.elements_[e].r_EL, field);
   }
 
-  /// @param of  what the limbs of one group say, side by side  @param sum  takes it of all limbs
-  template <class Of, class Sum>
-  void add_limbs(const Of& of, Sum& sum) const {
-    add_particles(of, sum);
+  template <class Of>
+  struct Power {
+    Of power{};
+    Power& operator+=(const Power& o) {
+      power += o.power;
+      return *this;
+    }
+  };
+  /// @param add  what a limb says, or like ones side by side, to a sum
+  template <template <class> class Sum, class Add>
+  Sum<H> of_limbs(const Add& add) const {
+    Sum<H> all{};
+    if (vehicle_.limbs_.has_particles()) {
+      Sum<S> particles{};  // idle lanes weigh nothing
+      vehicle_.limbs_.for_each_particle([&](auto& group) { add(group.limb, particles); });
+      all = total<true>(particles);
+    }
     vehicle_.limbs_.for_each_tree([&](auto& group) {
-      const auto limbs = of(group.limb);
-      if (group.is_full)  // asked once, not for every number
-        sum += total<true>(limbs);
-      else
-        sum += total<false>(limbs);
+      Sum<S> limbs{};
+      add(group.limb, limbs);
+      all += group.is_full ? total<true>(limbs) : total<false>(limbs);
     });
-  }
-  /// Of all groups in lanes first.
-  template <class Of, class Sum>
-  void add_particles(const Of& of, Sum& sum) const {
-    if (!vehicle_.limbs_.has_particles()) return;
-    std::remove_cvref_t<std::invoke_result_t<const Of&, Point<H, S>&>> limbs{};
-    vehicle_.limbs_.for_each_particle([&](auto& group) { limbs += of(group.limb); });
-    sum += total<true>(limbs);
+    return all;
   }
   // See gathered().
   template <bool kIsFull>
@@ -164,6 +166,14 @@ class Bookkeeper {
   template <bool kIsFull>
   static Moment<H> total(const Moment<S>& m) {
     return {total<kIsFull>(m.mass), total<kIsFull>(m.moment)};
+  }
+  template <bool kIsFull>
+  static Power<H> total(const Power<S>& p) {
+    return {total<kIsFull>(p.power)};
+  }
+  template <bool kIsFull>
+  static MassMotion<H> total(const MassMotion<S>& m) {
+    return {total<kIsFull>(m.moment), total<kIsFull>(m.momentum)};
   }
   template <bool kIsFull>
   static Outside<H> total(const Outside<S>& o) {

@@ -151,34 +151,34 @@ class Chain {
     }
     return power;
   }
-  Vec<S> momentum(const MountMotion<S>& mount) const {
-    Vec2<S> moment, in_mount;
+  // Seen from the mount's axes.
+  MassMotion<S> motion() const {
+    Vec2<S> moment, momentum;
     for (std::size_t i = 0; i < links_.size(); ++i) {
       const Link& link = links_[i];
       const Vec2<S> part =
           turned(link.first_moment + link.mass_beyond * link.next, motions_[i].turn);
       moment += part;
-      in_mount += motions_[i].theta_dot * perp(part);
+      momentum += motions_[i].theta_dot * perp(part);
     }
-    return mass_ * root_velocity(mount) + cross(mount.omega, in_axes(moment)) + in_axes(in_mount);
+    return {{mass_, mass_ * r_HB_ + in_axes(moment)}, in_axes(momentum)};
   }
-  void add_gravity(const MountMotion<S>& mount, Outside<S>& outside) const {
+  Outside<S> gravity() const {
     Pull<S> sum;  // chain axes, about the root hinge
-    S power_in_mount(0.0);
-    Vec2<S> r, v;  // of a hinge from the root hinge, and in the mount
+    S power(0.0);
+    Vec2<S> r, w;  // of a hinge from the root hinge
     for (std::size_t i = 0; i < links_.size(); ++i) {
       const Pull<S>& pull = pulls_[i];
       const S& theta_dot = motions_[i].theta_dot;
       sum.torque += pull.torque;
       sum.add(pull.force, {r.x, S(0.0), r.z});
-      power_in_mount += dot(v, in_plane(pull.force)) + theta_dot * pull.torque.y;
+      power += dot(w, in_plane(pull.force)) + theta_dot * pull.torque.y;
       const Vec2<S> next = turned(links_[i].next, motions_[i].turn);
       r += next;
-      v += theta_dot * perp(next);
+      w += theta_dot * perp(next);
     }
-    outside.add({dcm_WC_ * sum.force, dcm_WC_ * sum.torque},
-                {dcm_WC_, mount.omega, r_HB_, root_velocity(mount)});
-    outside.power += power_in_mount;
+    const Vec<S> force = dcm_WC_ * sum.force;
+    return {{force, plus_cross(dcm_WC_ * sum.torque, r_HB_, force)}, power, S(0.0)};
   }
 
  private:
@@ -229,9 +229,6 @@ class Chain {
     set_lane(J_, l, J);
   }
 
-  Vec<S> root_velocity(const MountMotion<S>& mount) const {
-    return mount.v_LB + cross(mount.omega, r_HP_);
-  }
   Vec<S> in_axes(const Vec2<S>& v) const { return v.x * dcm_WC_.x + v.z * dcm_WC_.z; }
 
   /// The force and torque on each link about its own hinge, in chain axes.

@@ -40,15 +40,11 @@ class ChainLimb {
 
   // For the books, as of Limb.
   S inner_power(const Number<H>* state) const { return chain_.inner_power(state); }
-  void trace(const Number<H>*, const Vec<S>&) {}
-  Vec<S> momentum() const { return chain_.momentum(hub_); }
-  Outside<S> loads(const Vec<S>*) const { return {}; }
-  Outside<S> gravity(const Field<S>&) const {
-    Outside<S> outside;
-    chain_.add_gravity(hub_, outside);
-    return outside;
-  }
-  Leaving<S> leaving(const Field<S>*) const { return {}; }
+  void trace(const Number<H>*) {}
+  void add_motion(MassMotion<S>& sum) const { sum += chain_.motion(); }
+  void add_loads(const Vec<S>*, Outside<S>&) const {}
+  void add_gravity(const Field<S>&, Outside<S>& sum) const { sum += chain_.gravity(); }
+  void add_leaving(const Vec<S>&, const Field<S>*, Leaving<S>&) const {}
 
  private:
   static std::array<const ChainPlan*, kLanes<S>> chains_of(std::span<const LimbPlan* const> lanes) {

@@ -8,7 +8,7 @@ namespace twincraft::bsm::TWINCRAFT_KERNEL {
 
 /// In kernel_books.cpp. @pre the vehicle's derivative() has last been asked at this state
 template <class H, class S>
-BooksOf<H> books_of(Vehicle<H, S>& vehicle, const Number<H>* state);
+void put_books(Vehicle<H, S>& vehicle, const Number<H>* state, std::span<BookRates> rates);
 
 namespace {
 
@@ -23,14 +23,7 @@ class VehicleKernel final : public Kernel {
     vehicle_.derivative(time, state, rate);
   }
   void books(const double* state, std::span<BookRates> rates) override {
-    const BooksOf<H> books = books_of(vehicle_, state);
-    for (std::size_t l = 0; l < kLanes<H>; ++l) {
-      BookRates& to = rates.data()[l];
-      to.power = lane(books.power, l);
-      to.own_power = lane(books.own_power, l);
-      put_lane(books.force_N, l, to.force_N.data());
-      put_lane(books.torque_PntC_N, l, to.torque_PntC_N.data());
-    }
+    put_books(vehicle_, state, rates);
   }
   void finish_step(double* state) const override { vehicle_.finish_step(state); }
 
@@ -62,12 +55,6 @@ class VehicleKernel final : public Kernel {
   }
 
  private:
-  static void put_lane(const Vec<H>& v, std::size_t l, double* to) {
-    to[0] = lane(v.x, l);
-    to[1] = lane(v.y, l);
-    to[2] = lane(v.z, l);
-  }
-
   Vehicle<H, S> vehicle_;
 };
 

@@ -167,33 +167,41 @@ class Limb {
     return power;
   }
   /// The velocities that move() leaves out. All that follows needs them.
-  void trace(const Number<H>*, const Vec<S>&) {
+  void trace(const Number<H>*) {
     for (std::size_t i = 0; i < links_.size(); ++i) set_velocity(i);
   }
-  Vec<S> momentum() const {
-    Vec<S> sum;
+  // Seen from the hub's axes, in which the links' own velocities are not.
+  void add_motion(MassMotion<S>& sum) const {
+    MassMotion<S> own;
     for (std::size_t i = 0; i < links_.size(); ++i) {
       const Motion& m = motions_[i];
-      sum += links_[i].mass.mass * m.at.v_LB + cross(m.at.omega, m.moment);
+      own.add_at(links_[i].mass.mass, m.at.r_LB, m.at.v_LB);
+      own.moment.moment += m.moment;
+      own.momentum += cross(m.at.omega, m.moment);
     }
-    for (const Chain<H, S>& chain : chains_) sum += chain.momentum(mount(chain.mount()));
-    return sum;
+    for (const Chain<H, S>& chain : chains_) {
+      MassMotion<S> of_chain = chain.motion();
+      of_chain.carry(mount(chain.mount()));
+      own += of_chain;
+    }
+    own.momentum -= cross(hub_.omega, own.moment.moment);
+    sum += own;
   }
   /// What is held, and what follows the motion. @param r_CB  as of contribute()
-  Outside<S> loads(const Vec<S>* r_CB) const {
-    Outside<S> outside;
+  void add_loads(const Vec<S>* r_CB, Outside<S>& sum) const {
+    Outside<S> own;
     for (std::size_t i = 0; i < links_.size(); ++i) {
       const MountMotion<S>& at = motions_[i].at;
       const Mat<S> dcm = dcm_WL(i);
-      Pull<S> sum{dcm * links_[i].held.force, dcm * links_[i].held.torque};
-      if (is_watched_) sum.add(motions_[i].pushed);
-      if (r_CB != nullptr) sum.add(dcm * links_[i].held_at_center, *r_CB - at.r_LB);
-      outside.add(sum, at);
+      Pull<S> pull{dcm * links_[i].held.force, dcm * links_[i].held.torque};
+      if (is_watched_) pull.add(motions_[i].pushed);
+      if (r_CB != nullptr) pull.add(dcm * links_[i].held_at_center, *r_CB - at.r_LB);
+      own.add(pull, at);
     }
-    return outside;
+    add_seen_from_hub(own, sum);
   }
-  Outside<S> gravity(const Field<S>& field) const {
-    Outside<S> outside;
+  void add_gravity(const Field<S>& field, Outside<S>& sum) const {
+    Outside<S> own;
     for (std::size_t i = 0; i < links_.size(); ++i) {
       const MountMotion<S>& at = motions_[i].at;
       for (const ElementNow<S>& element : links_[i].elements) {
@@ -201,26 +209,27 @@ class Limb {
         const Vec<S> place = at.r_LB + r_EL;
         Pull<S> pull;
         pull.add(element.mass * field.difference(place), r_EL);
-        outside.add(pull, at);
+        own.add(pull, at);
         if (field.has_gradient)
-          outside.add_turn(field.gradient_torque(place, element.I.turned(at.dcm_WL)), at.omega);
+          own.add_turn(field.gradient_torque(place, element.I.turned(at.dcm_WL)), at.omega);
       }
     }
-    for (const Chain<H, S>& chain : chains_) chain.add_gravity(mount(chain.mount()), outside);
-    return outside;
+    for (const Chain<H, S>& chain : chains_) {
+      Outside<S> on_chain = chain.gravity();
+      on_chain.carry(mount(chain.mount()));
+      own += on_chain;
+    }
+    add_seen_from_hub(own, sum);
   }
-  /// @param field  null: what is lost has no potential
-  Leaving<S> leaving(const Field<S>* field) const {
-    Leaving<S> leaving;
+  /// The hub's rotation is in it. @param field  null: what is lost has no potential
+  void add_leaving(const Vec<S>&, const Field<S>* field, Leaving<S>& sum) const {
     for (const DrainingLink& draining : draining_) {
       const MountMotion<S>& at = motions_[draining.link].at;
-      leaving.add(draining.drain.mass_rate(), at);
+      sum.add(draining.drain.mass_rate(), at);
       const std::vector<ElementNow<S>>& elements = links_[draining.link].elements;
       for (std::size_t e = 0; field != nullptr && e < elements.size(); ++e)
-        leaving.lift(draining.drain.element_rate(e), at.r_LB + at.dcm_WL * elements[e].r_EL,
-                     *field);
+        sum.lift(draining.drain.element_rate(e), at.r_LB + at.dcm_WL * elements[e].r_EL, *field);
     }
-    return leaving;
   }
 
  private:
@@ -391,6 +400,11 @@ class Limb {
       m.pushed = {};
     }
     for (RotorOn<H, S>& rotor : links_[i].rotors) rotor.move(state, m.at);
+  }
+
+  void add_seen_from_hub(Outside<S>& own, Outside<S>& sum) const {
+    own.power -= dot(hub_.omega, own.pull.torque);
+    sum += own;
   }
 
   S damping(const Link& link) const {

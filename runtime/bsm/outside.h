@@ -1,6 +1,9 @@
 // What the books of one evaluation are made of, and what they come to. The kernel sums it up limb
 // by limb from what the evaluation left in memory. Everything is about the hub's origin B, whose
-// velocity is taken as zero until the end: on orbit it would cost four digits.
+// velocity is taken as zero until the end: on orbit it would cost four digits. Limbs say how they
+// move as seen from the hub's axes, for the hub's own rotation omega is soon added to any sum: with
+// v = omega x r + w,
+//   sum m v = omega x sum m r + sum m w,  sum F.v = omega . sum r x F + sum F.w
 // Tested by tests/runtime/books_test.cpp (against sums over elements in plain doubles).
 #pragma once
 
@@ -9,12 +12,34 @@
 
 namespace twincraft::bsm::TWINCRAFT_KERNEL {
 
+/// Masses, where they are and how they move.
+template <class S>
+struct MassMotion {
+  Moment<S> moment;  // from B
+  Vec<S> momentum;   // [N s]
+
+  void add_at(const S& mass, const Vec<S>& r, const Vec<S>& v) {
+    moment += {mass, mass * r};
+    momentum += mass * v;
+  }
+  /// From seen in the mount's axes to seen as the mount itself is.
+  void carry(const MountMotion<S>& mount) {
+    momentum +=
+        moment.mass * mount.v_LB + cross(mount.omega, moment.moment - moment.mass * mount.r_LB);
+  }
+  MassMotion& operator+=(const MassMotion& o) {
+    moment += o.moment;
+    momentum += o.momentum;
+    return *this;
+  }
+};
+
 /// What acts on links from outside.
 template <class S>
 struct Outside {
   Pull<S> pull;    // hub axes, about B
   S power{};       // [W]
-  S turn_power{};  // [W] of it by gravity-gradient torques, which no potential covers
+  S turn_power{};  // [W] by gravity-gradient torques, inertial: no potential covers it
 
   /// @param on_link  about the link's origin
   void add(const Pull<S>& on_link, const MountMotion<S>& link) {
@@ -22,15 +47,15 @@ struct Outside {
     pull.torque += on_link.torque + cross(link.r_LB, on_link.force);
     power += dot(on_link.force, link.v_LB) + dot(on_link.torque, link.omega);
   }
-  /// On the hub, about B.
-  void add_on_hub(const Pull<S>& on_hub, const Vec<S>& omega) {
-    pull.add(on_hub);
-    power += dot(on_hub.torque, omega);
-  }
   /// On a particle. @param r, v  of it
   void add_at(const Vec<S>& force, const Vec<S>& r, const Vec<S>& v) {
     pull.add(force, r);
     power += dot(force, v);
+  }
+  /// As of MassMotion.
+  void carry(const MountMotion<S>& mount) {
+    power +=
+        dot(pull.force, mount.v_LB) + dot(mount.omega, pull.torque - cross(mount.r_LB, pull.force));
   }
   void add_turn(const Vec<S>& torque, const Vec<S>& omega) {
     const S works = dot(torque, omega);
@@ -47,7 +72,7 @@ struct Outside {
   }
 };
 
-/// What leaves with the mass that leaves, at fixed motion.
+/// What leaves with the mass that leaves, at fixed motion; the hub's rotation is in it.
 template <class S>
 struct Leaving {
   Moment<S> moment;  // [kg/s], [kg m/s]
@@ -110,16 +135,15 @@ struct BooksOf {
 /// at the end. Sums about C follow from those about B.
 template <class H>
 struct Tally {
-  Vec<H> r_CB, v_CB;
-  Pull<H> all;     // and momenta that leave
-  Vec<H> driving;  // [N] of it what no potential covers
-  H power{};       // [W] of all, and of leaving mass, with B at rest
-  H lost_mass{};   // [kg/s]
+  Vec<H> omega, r_CB, v_CB;
+  Pull<H> all{};     // and momenta that leave
+  Vec<H> driving{};  // [N] of it what no potential covers
+  H power{};         // [W] of all, and of leaving mass, with B at rest
+  H lost_mass{};     // [kg/s]
 
   void add_loads(const Outside<H>& loads, BooksOf<H>& books) {
-    add(loads);
+    books.power += add(loads);
     driving += loads.pull.force;
-    books.power += loads.power;
   }
   /// @param gravity  differences from that at B
   void add_gravity(const Outside<H>& gravity, const Mat<H>& dcm_NB, BooksOf<H>& books) {
@@ -150,10 +174,12 @@ struct Tally {
   }
 
  private:
-  void add(const Outside<H>& outside) {
-    all.force += outside.pull.force;
-    all.torque += outside.pull.torque;
-    power += outside.power;
+  /// @return its power
+  H add(const Outside<H>& outside) {
+    const H works = outside.power + dot(omega, outside.pull.torque);
+    all.add(outside.pull);
+    power += works;
+    return works;
   }
 };
 

@@ -1,5 +1,5 @@
 // What point masses on joints of the hub have in common, however they are joined to it: a place and
-// a velocity in hub axes, and a mass that may drain. A lane that no particle is in weighs nothing,
+// a velocity in the hub, and a mass that may drain. A lane that no particle is in weighs nothing,
 // so that what the lanes say can be added up as it is.
 // Tested by tests/runtime/bsm_test.cpp and tests/runtime/books_test.cpp.
 #pragma once
@@ -24,19 +24,15 @@ class Particle {
   Moment<S> moment() const { return {mass_, mass_ * r_}; }
 
   // For the books, as of Limb.
-  Vec<S> momentum() const { return mass_ * v_; }
-  Outside<S> gravity(const Field<S>& field) const {
-    Outside<S> outside;
-    outside.add_at(mass_ * field.difference(r_), r_, v_);
-    return outside;
+  void add_motion(MassMotion<S>& sum) const { sum.add_at(mass_, r_, w_); }
+  void add_gravity(const Field<S>& field, Outside<S>& sum) const {
+    sum.add_at(mass_ * field.difference(r_), r_, w_);
   }
-  Leaving<S> leaving(const Field<S>* field) const {
-    Leaving<S> leaving;
-    if (!draining_.drains()) return leaving;
+  void add_leaving(const Vec<S>& omega, const Field<S>* field, Leaving<S>& sum) const {
+    if (!draining_.drains()) return;
     const S& rate = draining_.mass_rate().mass;
-    leaving.add_point(rate, r_, v_);
-    if (field != nullptr) leaving.lift(rate, r_, *field);
-    return leaving;
+    sum.add_point(rate, r_, plus_cross(w_, omega, r_));
+    if (field != nullptr) sum.lift(rate, r_, *field);
   }
 
  protected:
@@ -54,7 +50,7 @@ class Particle {
   }
 
   S mass_{}, inverse_mass_{};
-  Vec<S> r_, v_;  // [m], [m/s] from B, whose velocity is left out
+  Vec<S> r_, w_;  // [m], [m/s] from B, seen from the hub's axes
 
  private:
   S idle_{};  // [kg] what stands for the mass of nothing, which is divided by

@@ -62,7 +62,8 @@ class Point : public Particle<H, S> {
     const S q_dot = gather<H, S>(state, rate_);
     r_ = r_HB_ + q * axis_;
     if (is_watched_) {
-      set_velocity(q_dot, omega);
+      omega_ = omega;
+      w_ = q_dot * axis_;
       pushed_ = {};
     }
     a_bias_ = cross(omega, cross(omega, r_) + (q_dot + q_dot) * axis_);
@@ -110,16 +111,12 @@ class Point : public Particle<H, S> {
     const S q_dot = gather<H, S>(state, rate_);
     return (effort_ - damping_ * q_dot) * q_dot;
   }
-  void trace(const Number<H>* state, const Vec<S>& omega) {
-    set_velocity(gather<H, S>(state, rate_), omega);
-  }
-  Outside<S> loads(const Vec<S>* r_CB) const {
-    Pull<S> sum{dcm_BL_ * force_L_, dcm_BL_ * torque_L_};
-    if (is_watched_) sum.add(pushed_);
-    if (r_CB != nullptr) sum.add(dcm_BL_ * force_at_center_L_, *r_CB - r_);
-    Outside<S> outside;
-    outside.add(sum, motion());
-    return outside;
+  void trace(const Number<H>* state) { w_ = gather<H, S>(state, rate_) * axis_; }
+  void add_loads(const Vec<S>* r_CB, Outside<S>& sum) const {
+    Pull<S> pull{dcm_BL_ * force_L_, dcm_BL_ * torque_L_};
+    if (is_watched_) pull.add(pushed_);
+    if (r_CB != nullptr) pull.add(dcm_BL_ * force_at_center_L_, *r_CB - r_);
+    sum.add(pull, {dcm_BL_, {}, r_, w_});
   }
 
  private:
@@ -127,13 +124,9 @@ class Point : public Particle<H, S> {
   using Base::inverse_mass_;
   using Base::mass_;
   using Base::r_;
-  using Base::v_;
+  using Base::w_;
 
-  void set_velocity(const S& q_dot, const Vec<S>& omega) {
-    omega_ = omega;
-    v_ = cross(omega, r_) + q_dot * axis_;
-  }
-  MountMotion<S> motion() const { return {dcm_BL_, omega_, r_, v_}; }
+  MountMotion<S> motion() const { return {dcm_BL_, omega_, r_, plus_cross(w_, omega_, r_)}; }
 
   Vec<S> r_HB_, axis_;
   Mat<S> dcm_BL_;

@@ -41,6 +41,8 @@ class Vehicle {
     }
     for (const LimbPlan& limb : plan_.limbs) has_elements_ = has_elements_ || pulls_on(limb);
     has_elements_ = has_elements_ || !elements_.empty();
+    pulls_on_hub_ = plan_.law == GravityLaw::kBodyGradient;
+    for (const ElementNow<H>& element : elements_) pulls_on_hub_ |= !is_at_hub(element.r_EL);
     push_.build(plans, limbs_);
   }
 
@@ -173,6 +175,15 @@ class Vehicle {
     return pulls;
   }
 
+  /// In every lane, for good: it feels the field that B does.
+  static bool is_at_hub(const Vec<H>& r) {
+    bool is_zero = true;
+    for (std::size_t l = 0; l < kLanes<H>; ++l)
+      is_zero =
+          is_zero && vanishes(lane(r.x, l)) && vanishes(lane(r.y, l)) && vanishes(lane(r.z, l));
+    return is_zero;
+  }
+
   template <class Chart>
   void derivative_in(Number<H> time, const Number<H>* state, Number<H>* rate) {
     const Chart chart(state, Layout::kAttitude);
@@ -293,7 +304,7 @@ class Vehicle {
       return;
     }
     const Field<H> field_B = field.in_axes(dcm_NB_);
-    pull_on_hub(field_B);
+    if (pulls_on_hub_) pull_on_hub(field_B);
     add_limbs(&field_B, center);
     field_ = field_B;  // not before: a law would wait for what was just stored
   }
@@ -365,7 +376,8 @@ class Vehicle {
   Limbs<H, S> limbs_;
   bool is_rigid_ = false;      // no limbs, no draining: factored once
   bool turns_alone_ = false;   // see turn_alone()
-  bool has_elements_ = false;  // that feel another field than B does
+  bool has_elements_ = false;  // that may feel another field than B does
+  bool pulls_on_hub_ = false;  // some element of the hub does, or feels a gradient
   HubFactors factors_;
   Sym<H> inverse_inertia_;  // of a rigid hub, about its centre of mass
   Law<H> hub_alone_, hub_;
