@@ -7,14 +7,17 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
 
 #include "runtime/integrate/engine_ode.h"
 
 namespace twincraft {
 namespace {
 
-// The books are quadratures appended behind the state: nothing reads them back.
+// The books are quadratures appended behind the state: nothing reads them back. Their rates lie
+// there as in BookRates.
 constexpr std::size_t kBooks = 8;
+static_assert(sizeof(BookRates) == kBooks * sizeof(double) && std::is_standard_layout_v<BookRates>);
 
 bool is_adaptive(const Model& model) { return tableau_of(model.simulation.method).adaptive; }
 
@@ -72,13 +75,9 @@ class Flight::BookkeepingOde final : public Ode {
       : engine_(engine), size_(static_cast<std::size_t>(engine.layout().size())) {}
   int size() const override { return static_cast<int>(size_ + kBooks); }
   void derivative(double time, std::span<const double> state, std::span<double> rate) override {
-    BookRates of_books;
-    engine_.derivative(time, state.first(size_), rate.first(size_), &of_books);
-    const std::span<double> books = rate.last(kBooks);
-    books[0] = of_books.power;
-    Vector3d::Map(&books[1]) = of_books.force_N;
-    Vector3d::Map(&books[4]) = of_books.torque_PntC_N;
-    books[7] = of_books.own_power;
+    // Where they belong: a copy would be read while it is on its way to memory.
+    auto* books = reinterpret_cast<BookRates*>(rate.last(kBooks).data());
+    engine_.derivative(time, state.first(size_), rate.first(size_), books);
   }
   void finish_step(std::span<double> state) override { engine_.finish_step(state.first(size_)); }
 
