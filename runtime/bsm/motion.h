@@ -1,5 +1,5 @@
-// Where all links are and how they move, in plain doubles: for observations, books and proofs, not
-// for inside a step. Tested by tests/runtime/bsm_test.cpp.
+// Where all links are and how they move, in plain doubles: for proofs, not for inside a step.
+// Tested by tests/runtime/bsm_test.cpp.
 #pragma once
 
 #include <span>

@@ -9,7 +9,6 @@ void Elements::add(std::size_t link, const MassElement& element) {
   placed.link = link;
   placed.tank = element.tank;
   placed.full_mass = element.mass;
-  placed.is_point = element.I_PntE_L.isZero(0.0);
   if (element.tank >= 0) draining_.push_back({now_.size(), placed});
   now_.push_back(placed);
 }

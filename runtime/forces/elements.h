@@ -16,7 +16,6 @@ class Elements {
     std::size_t link = 0;
     int tank = -1;           // see MassElement
     double full_mass = 0.0;  // [kg] at t = 0
-    bool is_point = false;   // without inertia about its own centre
 
     Vector3d r_EL_L() const { return eigen(r_EL); }
     Matrix3d I_PntE_L() const { return eigen(I); }

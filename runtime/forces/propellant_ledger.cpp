@@ -23,6 +23,7 @@ void PropellantLedger::hold(const Inputs& inputs) {
 }
 
 std::span<const double> PropellantLedger::shares(double time) {
+  if (is_idle_) return shares_;
   for (std::size_t k = 0; k < tanks_.size(); ++k) shares_[k] = tanks_[k].share(time);
   return shares_;
 }
