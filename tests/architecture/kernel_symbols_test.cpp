@@ -64,6 +64,8 @@ class KernelSymbols : public testing::TestWithParam<KernelObjects> {
 bool is_shared_data(const std::string& name) {
   return name == "typeinfo for twincraft::bsm::Kernel" ||
          name == "typeinfo name for twincraft::bsm::Kernel" ||
+         name == "typeinfo for twincraft::bsm::Observer" ||
+         name == "typeinfo name for twincraft::bsm::Observer" ||
          name == "DW.ref.__gxx_personality_v0";
 }
 
@@ -82,8 +84,12 @@ TEST_P(KernelSymbols, BelongToTheInstructionSet) {
 
 INSTANTIATE_TEST_SUITE_P(
     Of, KernelSymbols,
-    testing::Values(KernelObjects{"avx2", TWINCRAFT_AVX2_OBJECTS, {"new_kernel(", "books_of<"}},
-                    KernelObjects{"avx512", TWINCRAFT_AVX512_OBJECTS, {"new_kernel(", "books_of<"}},
+    testing::Values(KernelObjects{"avx2",
+                                  TWINCRAFT_AVX2_OBJECTS,
+                                  {"new_kernel(", "books_of<", "new_observer("}},
+                    KernelObjects{"avx512",
+                                  TWINCRAFT_AVX512_OBJECTS,
+                                  {"new_kernel(", "books_of<", "new_observer("}},
                     KernelObjects{"sums_avx2", TWINCRAFT_SUMS_AVX2_OBJECTS, {"stage_sums("}}),
     [](const auto& each) { return each.param.set; });
 
