@@ -1,6 +1,10 @@
 // See observer.h. Compiled once per instruction set, like kernel.cpp. Every link is moved from its
 // parent, then all elements are summed up, two at a time: first where the centre of mass is and how
 // it moves, then what moves about it. Tested by tests/runtime/observer_test.cpp.
+#include <array>
+#include <cmath>
+#include <vector>
+
 #include "runtime/bsm/charts.h"
 #include "runtime/bsm/observer.h"
 #include "runtime/bsm/parts.h"
