@@ -1,6 +1,6 @@
 // Fly a campaign, then its worst members once more, alone: campaign
 // models/gallery/dispersed_burn.yaml
-#include <twincraft/simulation.h>
+#include <twincraft/campaign.h>
 
 #include <cstdio>
 

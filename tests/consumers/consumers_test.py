@@ -21,6 +21,8 @@ BUILD, CMAKE, NM = sys.argv[1:4]
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 HERE = ROOT / "tests/consumers"
 EXAMPLES = ROOT / "examples"
+HEADERS = ["twincraft.h", *(f"twincraft/{name}.h" for name in
+                            ("campaign", "error", "model", "simulation", "testing"))]
 QUICKSTART = ROOT / "models/quickstart.yaml"
 STRICT_C = ["-std=c99", "-Wall", "-Wextra", "-pedantic", "-Werror"]
 STRICT_CXX = ["-std=c++17", "-Wall", "-Wextra", "-Wpedantic", "-Wshadow", "-Wconversion", "-Werror"]
@@ -62,8 +64,7 @@ def numbers(lines):
 
 class Prefix(unittest.TestCase):
     def test_holds_what_it_should(self):
-        for name in ["bin/scsim", "bin/sccompile", "include/twincraft.h",
-                     "include/twincraft/simulation.h", "include/twincraft/testing.h",
+        for name in ["bin/scsim", "bin/sccompile", *(f"include/{header}" for header in HEADERS),
                      "share/twincraft/models/quickstart.yaml",
                      "share/twincraft/schemas/spacecraft.schema.json",
                      "share/twincraft/examples/c/mrp_feedback.c", "share/doc/twincraft/LICENSE"]:
@@ -122,8 +123,10 @@ class Interface(unittest.TestCase):
 
     def test_compiles_alone_as_c99_and_as_cxx17(self):
         self.compile_alone("cc", STRICT_C, "twincraft.h", ".c")
-        for header in ["twincraft.h", "twincraft/simulation.h", "twincraft/testing.h"]:
+        for header in HEADERS:
             self.compile_alone("c++", STRICT_CXX, header, ".cpp")
+        installed = (PREFIX / "include").rglob("*.h")
+        self.assertEqual({str(path.relative_to(PREFIX / "include")) for path in installed}, set(HEADERS))
 
     def test_sets_no_signal_handler_and_prints_nothing(self):
         program, folder = SCRATCH / "quiet", SCRATCH / "quiet-here"
