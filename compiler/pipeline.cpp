@@ -177,11 +177,15 @@ Bundle emit(Model model, const Spec& spec, const Origin& origin,
   Bundle bundle;
   for (const std::string_view name : wanted) {
     const Target& target = *find_target(name);
-    tell(target.remarks(model), spec, diagnostics);
-    if (!target.refusal(model).empty()) continue;
-    std::string text = target.print(model, resolved);
-    std::string digest = sha256(text);
-    bundle.emitted.insert_or_assign(std::string(name), Emitted{std::move(text), std::move(digest)});
+    Printed printed = target.print(model, resolved);
+    tell(printed.remarks, spec, diagnostics);
+    if (!printed.refusal.empty()) {
+      bundle.refused.insert_or_assign(std::string(name), std::move(printed.refusal));
+      continue;
+    }
+    std::string digest = sha256(printed.text);
+    bundle.emitted.insert_or_assign(std::string(name),
+                                    Emitted{std::move(printed.text), std::move(digest)});
     if (name == kResolved) bundle.resolved_json = json_text(resolved);
   }
   bundle.spec_file = origin.file;

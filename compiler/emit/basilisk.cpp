@@ -1,4 +1,4 @@
-// What both halves of a script share: its head, what acts, the flight and the command line.
+// What both halves of a script share: its head, its run and what acts, as data.
 // Tested by tests/compiler/basilisk_test.cpp, and flown by tests/basilisk.
 #include "compiler/emit/basilisk.h"
 
@@ -12,6 +12,7 @@
 #include <string_view>
 #include <utility>
 
+#include "compiler/emit/basilisk_code.h"
 #include "compiler/emit/basilisk_half.h"
 #include "compiler/emit/python_text.h"
 #include "compiler/emit/resolved.h"
@@ -25,137 +26,6 @@ namespace twincraft {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr std::string_view kImports = R"py(
-# flake8: noqa: E501
-import argparse
-import pathlib
-import sys
-import time
-try:
-    import Basilisk
-    import numpy as np
-    from Basilisk.architecture import bskLogging, messaging, sysModel
-)py";
-
-constexpr std::string_view kVersion =
-    R"py(    assert [int(n) for n in Basilisk.__version__.split(".")[:2]] >= [2, 12], f"this is {Basilisk.__version__}"
-except (ImportError, AssertionError) as error:
-    sys.exit(f"Basilisk 2.12 or later and numpy are needed (pip install bsk): {error}")
-)py";
-
-constexpr std::string_view kVehicle = R"py(
-
-class Vehicle(sysModel.SysModel):
-    """In a task after its `modules`: it sets the state of t = 0, and holds what acts."""
-
-    def __init__(self, engine):
-        super().__init__()
-        self.modules, self.parts, self.holds, self.acting, self.coming = [], {}, [], {}, list(INPUTS)
-@kept@        getattr(self, engine)()
-        self.modules.append(self.body)
-        self.integrator = INTEGRATOR(self.body)
-        self.body.setIntegrator(self.integrator)
-@halves@
-    def link(self, port, kind, say):
-        port.subscribeTo(message := getattr(messaging, kind + "Msg")())
-        self.holds.append(lambda now: message.write(getattr(messaging, kind + "MsgPayload")(**say(self.acting)), now))
-
-    def Reset(self, now):
-        for name in self.states.keys() & INITIAL.keys():
-            state, row = self.states[name]
-            state = self.body.dynManager.getStateObject(state)
-            column = np.array(state.getState())
-            column[row:row + np.size(INITIAL[name]), 0] = INITIAL[name]
-            state.setState(column)
-)py";
-
-constexpr std::string_view kTolerance =
-    R"py(        self.integrator.setAbsoluteTolerance(ABSOLUTE)
-        self.integrator.setRelativeTolerance(RELATIVE)
-        for name in {"mujocoQpos", "mujocoQvel"} & {state for state, _ in self.states.values()}:
-            # all coordinates at once: nothing is relative to an orbit's radius
-            self.integrator.setRelativeTolerance(name, 0)
-            self.integrator.setAbsoluteTolerance(name, ABSOLUTE + 1e-15 * np.linalg.norm(INITIAL["r_BN_N"]))
-)py";
-
-constexpr std::string_view kFlight = R"py(
-    def UpdateState(self, now):
-        while self.coming and round(1e9 * self.coming[0][0]) <= now:
-            self.acting |= self.coming.pop(0)[1]
-        for hold in self.holds:
-            hold(now)
-        for module in self.modules[:-1]:
-            module.UpdateState(now)
-
-    def row(self, t):
-        com, mass = self.whole(seen := self.seen.read())
-        s = np.array(seen.sigma_BN)
-        q = np.hstack([1 - s @ s, 2 * s]) / (1 + s @ s)
-        places = [self.states[column.split(" ")[0]] for column in COLUMNS[20:-1]]
-        joints = [self.body.dynManager.getStateObject(state).getState()[row][0] for state, row in places]
-        row = np.hstack([t, @r_BN_N@, seen.v_BN_N, q, seen.omega_BN_B, com, joints, np.ravel(mass)[0]])
-        return row if np.isfinite(row).all() else sys.exit(f"the motion is not finite at {t} s")
-
-    def fly(self, step, duration):
-        """The lines of our CSV. Steps end at multiples of `step` and where INPUTS change."""
-        yield COLUMNS
-        for module in [*self.modules, self]:
-            module.SelfInit()
-        for module in [*self.modules, self]:
-            module.Reset(0)
-        self.UpdateState(0)
-        self.body.UpdateState(0)
-        yield self.row(0.0)
-@lands@        grid, changes = np.arange(1, duration / step + 1e-9) * step, [t for t, _ in INPUTS if 0 < t < duration]
-        times = np.unique(np.rint(1e9 * np.hstack([grid, changes, duration])).astype(int))
-        self.steps, self.seconds, samples = len(times), 0, 1
-        for now in times.tolist():
-            begin = time.perf_counter()
-            self.body.UpdateState(now)
-            self.seconds += time.perf_counter() - begin
-            if now >= round(1e9 * (samples * RECORD)) or now == times[-1]:
-                yield self.row(now / 1e9)
-                samples = int((now + 1) / 1e9 / RECORD) + 1
-            if self.coming and round(1e9 * self.coming[0][0]) <= now:
-                self.UpdateState(now)
-
-
-def build(sim, task, engine="@engine@"):
-    """Put the vehicle into a task of your own. INPUTS act from ticks on; after INPUTS.clear() none does. Keep it."""
-    vehicle = Vehicle(engine)
-    for i, module in enumerate([*vehicle.modules, vehicle]):
-        sim.AddModelToTask(task, module, 1000 - i)
-    return vehicle
-
-)py";
-
-// Basilisk's adaptive methods try a whole step first, and MJScene stops where that ends nowhere.
-constexpr std::string_view kShorter =
-    R"py(        if "q_BN" in self.states:  # in MJScene, which stops where the first trial of a step ends nowhere
-            step /= 10
-)py";
-
-constexpr std::string_view kMain = R"py(
-if __name__ == "__main__":
-    line = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    line.add_argument("--engine", choices=["bsm", "mjscene", "both"], default="both")
-    line.add_argument("--step", type=float, default=STEP, help="[s]")
-    line.add_argument("--duration", type=float, default=DURATION, help="[s]")
-    line.add_argument("-o", type=pathlib.Path, default=".", metavar="DIR")
-    asked = line.parse_args()
-    if not asked.step >= 1e-9 or not 0 < asked.duration < 9e9:
-        line.error("--step and --duration are in seconds, and at least a nanosecond")
-    for name in HALVES if asked.engine == "both" else [asked.engine]:
-        vehicle = sys.exit(f"{name}: {'; '.join(REFUSED[name])}") if name in REFUSED else Vehicle(name)
-        try:
-            lines = [",".join(map(str, row)) + "\n" for row in vehicle.fly(asked.step, asked.duration)]
-        except bskLogging.BasiliskError as error:
-            sys.exit(f"{name}: {error}; a shorter --step may help")
-        asked.o.mkdir(parents=True, exist_ok=True)
-        (asked.o / f"basilisk_{name}.csv").write_text("".join(lines))
-        print(f"{name}: {vehicle.steps} steps, {1e6 * vehicle.seconds / vehicle.steps:.2f} us per step")
-)py";
 
 std::string_view method_of(Method method) {
   switch (method) {
@@ -323,10 +193,6 @@ std::vector<Remark> notes_of(const Model& model) {
   return notes;
 }
 
-void replace(std::string& text, std::string_view mark, std::string_view by) {
-  text.replace(text.find(mark), mark.size(), by);
-}
-
 struct Script {
   std::vector<Remark> notes;
   Half bsm, mjscene;
@@ -367,18 +233,6 @@ std::string docstring(const Model& model, const Script& script, const std::strin
   return text + "\"\"\"";
 }
 
-std::string imports_of(const Script& script) {
-  std::set<std::string> modules = script.bsm.simulation;
-  modules.insert(script.mjscene.simulation.begin(), script.mjscene.simulation.end());
-  modules.insert("svIntegrators");
-  const std::string names = fmt::format("{}", fmt::join(modules, ", "));
-  const std::string line = "    from Basilisk.simulation import ";
-  const bool fits = line.size() + names.size() <= kScriptLine;
-  return std::string(kImports) +
-         (fits ? line + names + "\n" : filled(names + ")", line + "(\n        ", "        ")) +
-         std::string(kVersion);
-}
-
 std::string refused(const Half& half) {
   return fmt::format("{}", fmt::join(sentences(half.refusals), "; "));
 }
@@ -399,6 +253,40 @@ std::string halves(const Script& script) {
   return text + "HALVES = [name for name in (\"bsm\", \"mjscene\") if name not in REFUSED]\n";
 }
 
+std::string text_of(const Model& model, const Script& script, const Json& resolved) {
+  std::set<std::string> modules = script.bsm.simulation;
+  modules.insert(script.mjscene.simulation.begin(), script.mjscene.simulation.end());
+  modules.insert("svIntegrators");
+  std::string text = docstring(model, script, sha256(emit_resolved(resolved)));
+  text += imports_code(modules);
+  text += run_of(model) + columns(model) + initial_state(model);
+  text += inputs_of_script(model);
+  text += script.bsm.tables + script.mjscene.tables + halves(script) + script.mjscene.models;
+  return text + vehicle_code({.is_point = model.simulation.translation,
+                              .is_adaptive = is_adaptive(model.simulation.method),
+                              .engine = script.bsm.refusals.empty() ? kBsmHalf : kMjSceneHalf},
+                             script.bsm.code + script.mjscene.code);
+}
+
+std::string refusal_of(const Script& script) {
+  if (script.bsm.refusals.empty() || script.mjscene.refusals.empty()) return {};
+  return fmt::format("Basilisk's BSM does not express it ({}), nor does its MJScene ({})",
+                     refused(script.bsm), refused(script.mjscene));
+}
+
+std::vector<Remark> remarks_of(const Script& script) {
+  std::vector<Remark> all = script.notes;
+  const auto add = [&all](const char* name, const Half& half) {
+    for (const Remark& each : half.refusals)
+      all.push_back({each.component, fmt::format("not in {}: {}", name, each.text), true});
+    for (const Remark& each : half.notes)
+      all.push_back({each.component, fmt::format("in {}: {}", name, each.text)});
+  };
+  add("Basilisk's BSM", script.bsm);
+  add("Basilisk's MJScene", script.mjscene);
+  return all;
+}
+
 }  // namespace
 
 bool is_adaptive(Method method) { return method == Method::kRkf45 || method == Method::kRkf78; }
@@ -412,48 +300,11 @@ std::string enumeration(const std::vector<std::string>& names) {
   return text;
 }
 
-std::string emit_basilisk(const Model& model, const Json& resolved) {
+Printed emit_basilisk(const Model& model, const Json& resolved) {
   const Script script(model);
-  std::string text = docstring(model, script, sha256(emit_resolved(resolved)));
-  text += imports_of(script);
-  text += run_of(model) + columns(model) + initial_state(model);
-  text += inputs_of_script(model);
-  text += script.bsm.tables + script.mjscene.tables + halves(script) + script.mjscene.models;
-  std::string vehicle(kVehicle);
-  replace(vehicle, "@halves@\n", script.bsm.code + script.mjscene.code + "\n");
-  const bool keeps = vehicle.find("self.kept") != std::string::npos;
-  replace(vehicle, "@kept@",
-          keeps ? "        self.kept = []  # Basilisk has raw pointers to these\n" : "");
-  text += vehicle;
-  if (is_adaptive(model.simulation.method)) text += kTolerance;
-  std::string flight(kFlight);
-  // Of a point mass one half flies B, the other the centre of mass.
-  replace(flight, "@r_BN_N@",
-          model.simulation.translation ? "np.subtract(com[:3], CENTER)" : "seen.r_BN_N");
-  replace(flight, "@lands@", is_adaptive(model.simulation.method) ? kShorter : "");
-  replace(flight, "@engine@", script.bsm.refusals.empty() ? kBsmHalf : kMjSceneHalf);
-  return text + flight + std::string(kMain);
-}
-
-std::string basilisk_refusal(const Model& model) {
-  const Script script(model);
-  if (script.bsm.refusals.empty() || script.mjscene.refusals.empty()) return {};
-  return fmt::format("Basilisk's BSM does not express it ({}), nor does its MJScene ({})",
-                     refused(script.bsm), refused(script.mjscene));
-}
-
-std::vector<Remark> basilisk_remarks(const Model& model) {
-  const Script script(model);
-  std::vector<Remark> all = script.notes;
-  const auto add = [&all](const char* name, const Half& half) {
-    for (const Remark& each : half.refusals)
-      all.push_back({each.component, fmt::format("not in {}: {}", name, each.text), true});
-    for (const Remark& each : half.notes)
-      all.push_back({each.component, fmt::format("in {}: {}", name, each.text)});
-  };
-  add("Basilisk's BSM", script.bsm);
-  add("Basilisk's MJScene", script.mjscene);
-  return all;
+  Printed printed{.refusal = refusal_of(script), .remarks = remarks_of(script)};
+  if (printed.refusal.empty()) printed.text = text_of(model, script, resolved);
+  return printed;
 }
 
 }  // namespace twincraft

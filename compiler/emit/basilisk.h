@@ -3,21 +3,15 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
-#include <string>
-#include <vector>
 
-#include "compiler/emit/remark.h"
+#include "compiler/emit/printed.h"
 #include "compiler/ir/model.h"
 
 namespace twincraft {
 
+/// Refused where neither formulation can express the vehicle. Remarks: what one of them cannot
+/// express, and what is written otherwise than in the spec.
 /// @param resolved  the map that the spec's field table writes
-std::string emit_basilisk(const Model& model, const nlohmann::ordered_json& resolved);
-
-/// Why neither formulation can express the vehicle; none: one can.
-std::string basilisk_refusal(const Model& model);
-
-/// What one formulation cannot express, and what is written otherwise than in the spec.
-std::vector<Remark> basilisk_remarks(const Model& model);
+Printed emit_basilisk(const Model& model, const nlohmann::ordered_json& resolved);
 
 }  // namespace twincraft

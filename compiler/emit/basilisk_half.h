@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "compiler/emit/remark.h"
+#include "compiler/emit/printed.h"
 #include "compiler/ir/model.h"
 
 namespace twincraft {

@@ -14,22 +14,20 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string fits_always(const Model&) { return {}; }
-std::string mujoco_refusal(const Model& model) { return model.mujoco_refusal; }
-std::vector<Remark> nothing(const Model&) { return {}; }
+Printed print_mjcf(const Model& model, const Json&) {
+  if (!model.mujoco_refusal.empty()) return {.refusal = model.mujoco_refusal};
+  return {.text = emit_mjcf(model)};
+}
 
 constexpr Target kTargets[] = {
-    {kMjcf, ".xml", "the bodies, for MuJoCo",
-     [](const Model& model, const Json&) { return emit_mjcf(model); }, mujoco_refusal, nothing},
+    {kMjcf, ".xml", "the bodies, for MuJoCo", print_mjcf},
     {kAssemblyJson, ".bsm.json", "the assembly of the analytic engine",
-     [](const Model& model, const Json&) { return emit_bsm(model); }, fits_always, nothing},
+     [](const Model& model, const Json&) { return Printed{emit_bsm(model)}; }},
     {kResolved, ".resolved.yaml", "the spec with every default, in SI",
-     [](const Model&, const Json& resolved) { return emit_resolved(resolved); }, fits_always,
-     nothing},
+     [](const Model&, const Json& resolved) { return Printed{emit_resolved(resolved)}; }},
     {"dot", ".dot", "both halves as a Graphviz drawing",
-     [](const Model& model, const Json&) { return emit_dot(model); }, fits_always, nothing},
-    {kBasilisk, ".basilisk.py", "a script that flies it in Basilisk", emit_basilisk,
-     basilisk_refusal, basilisk_remarks},
+     [](const Model& model, const Json&) { return Printed{emit_dot(model)}; }},
+    {kBasilisk, ".basilisk.py", "a script that flies it in Basilisk", emit_basilisk},
 };
 
 }  // namespace

@@ -4,11 +4,9 @@
 
 #include <nlohmann/json.hpp>
 #include <span>
-#include <string>
 #include <string_view>
-#include <vector>
 
-#include "compiler/emit/remark.h"
+#include "compiler/emit/printed.h"
 #include "compiler/ir/model.h"
 
 namespace twincraft {
@@ -18,11 +16,7 @@ struct Target {
   std::string_view suffix;  // of its file, after the vehicle's name
   std::string_view what;    // for `--help`
   /// @param resolved  the map that the spec's field table writes
-  std::string (*print)(const Model& model, const nlohmann::ordered_json& resolved);
-  /// Why this model cannot be written so; empty: it can.
-  std::string (*refusal)(const Model& model);
-  /// What is to be said at its components.
-  std::vector<Remark> (*remarks)(const Model& model);
+  Printed (*print)(const Model& model, const nlohmann::ordered_json& resolved);
 };
 
 std::span<const Target> targets();

@@ -25,8 +25,9 @@ struct Emitted {
 
 struct Bundle {
   Model model;
-  // By name; those that were wanted, but for one that the model refuses.
+  // By name, those that were wanted; of one that the model refuses the reason.
   std::map<std::string, Emitted, std::less<>> emitted;
+  std::map<std::string, std::string, std::less<>> refused;
   std::string resolved_json;      // what kResolved says, for programs; empty unless it was wanted
   std::string spec_file;          // as given
   std::string spec_sha256;        // of the bytes of the spec and of all it extends

@@ -33,18 +33,19 @@ std::vector<std::string> lines_with(const std::string& pattern) {
 }
 
 TEST(Names, OfEnginesStandInTheirTable) {
-  EXPECT_THAT(lines_with(R"re("(bsm|mujoco|BSM|MuJoCo)(\.csv|\.nc)?")re"),
-              UnorderedElementsAre("compiler/ir/engine_kind.h", "compiler/ir/engine_kind.h",
-                                   "compiler/ir/bundle.h",    // of a target
-                                   "compiler/emit/mjcf.cpp",  // the root of MJCF
-                                   // halves of a script for Basilisk, and a module of it
-                                   "compiler/emit/basilisk.cpp", "compiler/emit/basilisk_half.h",
-                                   "compiler/emit/basilisk_mjscene_code.cpp",
-                                   "runtime/report/json.cpp",         // the version of a library,
-                                   "runtime/report/netcdf_file.cpp",  // the same
-                                   // words of the spec language
-                                   "compiler/schema/synonyms.def", "compiler/schema/synonyms.def",
-                                   "compiler/schema/synonyms.def", "compiler/schema/synonyms.def"));
+  EXPECT_THAT(
+      lines_with(R"re("(bsm|mujoco|BSM|MuJoCo)(\.csv|\.nc)?")re"),
+      UnorderedElementsAre("compiler/ir/engine_kind.h", "compiler/ir/engine_kind.h",
+                           "compiler/ir/bundle.h",    // of a target
+                           "compiler/emit/mjcf.cpp",  // the root of MJCF
+                           // halves of a script for Basilisk, and a module of it
+                           "compiler/emit/basilisk_code.cpp", "compiler/emit/basilisk_half.h",
+                           "compiler/emit/basilisk_mjscene_code.cpp",
+                           "runtime/report/json.cpp",         // the version of a library,
+                           "runtime/report/netcdf_file.cpp",  // the same
+                           // words of the spec language
+                           "compiler/schema/synonyms.def", "compiler/schema/synonyms.def",
+                           "compiler/schema/synonyms.def", "compiler/schema/synonyms.def"));
 }
 
 TEST(Names, OfTargetsStandInTheirTable) {

@@ -173,8 +173,8 @@ Results results_of(const Bundle& bundle, const Options& options) {
   Results results;
   for (const Target* target : options.targets) {
     const std::string name = fmt::format("{}{}", bundle.model.name, target->suffix);
-    if (const std::string refusal = target->refusal(bundle.model); !refusal.empty()) {
-      complain(fmt::format("`{}` is not written: {}", name, refusal));
+    if (const auto refused = bundle.refused.find(target->name); refused != bundle.refused.end()) {
+      complain(fmt::format("`{}` is not written: {}", name, refused->second));
       results.code = kExitFindings;
       continue;
     }

@@ -1,7 +1,8 @@
-// What a target has to say of a model, for a diagnostic at the component.
+// What a target makes of a model: the text of its file, and what is to be said in diagnostics.
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace twincraft {
 
@@ -11,6 +12,12 @@ struct Remark {
   bool is_refusal = false;  // a part of the target cannot have it; else it is written otherwise
 
   bool operator==(const Remark&) const = default;
+};
+
+struct Printed {
+  std::string text = {};             // empty where the model cannot be written so
+  std::string refusal = {};          // why it cannot; empty: it can
+  std::vector<Remark> remarks = {};  // at its components
 };
 
 }  // namespace twincraft
