@@ -134,24 +134,21 @@ double initial_of(const Model& model, const OutputSignal& output) {
 /// Attitude as a quaternion for one half, as MRPs for the other.
 std::string initial_state(const Model& model) {
   const VehicleState& initial = model.initial;
-  const bool is_point = model.simulation.translation;
-  const double sign = initial.q_BN.w() < 0.0 ? -1.0 : 1.0;
-  const double w = is_point ? 1.0 : sign * initial.q_BN.w();
-  const Vector3d part = is_point ? Vector3d::Zero().eval() : (sign * initial.q_BN.vec()).eval();
-  Json state = {{"r_BN_N", vector_json(initial.r_BN_N)},
-                {"v_BN_N", vector_json(initial.v_BN_N)},
-                {"q_BN", {w, part.x(), part.y(), part.z()}},
-                {"sigma_BN", vector_json(part / (1.0 + w))},
-                {"omega_BN_B", vector_json(initial.omega_BN_B)}};
-  if (part.isZero(0.0)) {  // as they are by themselves
-    state.erase("q_BN");
-    state.erase("sigma_BN");
+  Json state = {{"r_BN_N", vector_json(initial.r_BN_N)}, {"v_BN_N", vector_json(initial.v_BN_N)}};
+  if (model.simulation.translation) {
+    state["r_CN_N"] = vector_json(initial.r_BN_N + hub_of(model).r_CL_L);
+  } else {
+    const double sign = initial.q_BN.w() < 0.0 ? -1.0 : 1.0;
+    const double w = sign * initial.q_BN.w();
+    const Vector3d part = sign * initial.q_BN.vec();
+    state["q_BN"] = {w, part.x(), part.y(), part.z()};
+    state["sigma_BN"] = vector_json(part / (1.0 + w));
+    state["omega_BN_B"] = vector_json(initial.omega_BN_B);
   }
-  if (is_point) state["r_CN_N"] = vector_json(initial.r_BN_N + hub_of(model).r_CL_L);
   for (const OutputSignal& output : outputs_of(model))
     if (output.coordinate && initial_of(model, output) != 0.0)
       state[output.name] = initial_of(model, output);
-  return assignment("INITIAL", state);
+  return assignment("INITIAL", state, "coordinates that are not here: 0");
 }
 
 std::string run_of(const Model& model) {

@@ -30,11 +30,11 @@ except (ImportError, AssertionError) as error:
 constexpr std::string_view kVehicle = R"py(
 
 class Vehicle(sysModel.SysModel):
-    """In a task after its `modules`: it sets the state of t = 0, and holds what acts."""
+    """In a task after its `modules`: it sets the state of t = 0, again at every Reset, and holds what acts."""
 
     def __init__(self, engine):
         super().__init__()
-        self.modules, self.parts, self.holds, self.acting, self.coming = [], {}, [], {}, list(INPUTS)
+        self.modules, self.parts, self.holds = [], {}, []
 @kept@        getattr(self, engine)()
         self.modules.append(self.body)
         self.integrator = INTEGRATOR(self.body)
@@ -45,11 +45,12 @@ class Vehicle(sysModel.SysModel):
         self.holds.append(lambda now: message.write(getattr(messaging, kind + "MsgPayload")(**say(self.acting)), now))
 
     def Reset(self, now):
-        for name in self.states.keys() & INITIAL.keys():
-            state, row = self.states[name]
-            state = self.body.dynManager.getStateObject(state)
+        self.acting, self.coming = {}, list(INPUTS)
+        self.body.timeBefore, self.body.timeBeforeNanos = 1e-9 * now, now  # an MJScene has that of an earlier run
+        for name, (state, row) in self.states.items():
+            state, value = self.body.dynManager.getStateObject(state), INITIAL.get(name, 0)
             column = np.array(state.getState())
-            column[row:row + np.size(INITIAL[name]), 0] = INITIAL[name]
+            column[row:row + np.size(value), 0] = value
             state.setState(column)
 )py";
 
@@ -121,7 +122,7 @@ constexpr std::string_view kShorter =
 
 constexpr std::string_view kMain = R"py(
 if __name__ == "__main__":
-    line = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    line = argparse.ArgumentParser(description=__doc__.split("\n")[0].replace("%", "%%"))
     line.add_argument("--engine", choices=["bsm", "mjscene", "both"], default="both")
     line.add_argument("--step", type=float, default=STEP, help="[s]")
     line.add_argument("--duration", type=float, default=DURATION, help="[s]")

@@ -96,7 +96,7 @@ def test_a_motion_that_is_lost_is_said_in_a_line(quickstart, tmp_path):
     assert csv_files(tmp_path) == []
 
 
-HOSTILE = (r'''"5 % {0} \"\"\" \nraise SystemExit('run')\n\t\"\"\" and \\ and \\N{x} '''
+HOSTILE = (r'''"5 % {0} 3 %(prog)d %s \"\"\" \nraise SystemExit('run')\n\t\"\"\" and \\ and \\N{x} '''
            r"""'#' \u00e9 \u65e5\u672c \U0001F680 \u202e \u2028 """ + "x" * 300 + '"')
 
 
@@ -106,7 +106,7 @@ def test_a_description_is_text_alone(tmp_path):
     script = flights.emit(tmp_path / "spec.yaml", tmp_path / "out", "simulation.duration=0.02").script
     assert script.read_bytes().isascii()
     assert flights.lint(script) == ""
-    assert "5 % {0}" in fly_script(script, "--help").stdout
+    assert "5 % {0} 3 %(prog)d %s" in fly_script(script, "--help").stdout
     fly_script(script, "-o", tmp_path / "flown")
     assert len(csv_files(tmp_path / "flown")) == 2
 
@@ -163,7 +163,7 @@ def test_a_basilisk_without_mujoco_flies_the_other_half(quickstart, tmp_path):
 
 
 @pytest.mark.parametrize("engine", flights.HALVES)
-def test_in_a_task_it_flies_the_same_bits(engine, tmp_path):
+def test_in_a_task_it_flies_the_same_bits_again_and_again(engine, tmp_path):
     """Where steps and inputs are at ticks."""
     settings = ["simulation.duration=2", "wheels.rw_x.torque=[[0, 0.01], [0.5, -0.02], [1.1, 0]]"]
     script = flights.emit(QUICKSTART, tmp_path, *settings).script

@@ -28,10 +28,11 @@ COLUMNS = [
     "omega_BN_B.z [rad/s]", "r_CN_N.x [m]", "r_CN_N.y [m]", "r_CN_N.z [m]", "v_CN_N.x [m/s]", "v_CN_N.y [m/s]",
     "v_CN_N.z [m/s]", "rw.rate [rad/s]", "wing.1.position [rad]", "wing.1.rate [rad/s]", "arm.position [rad]",
     "arm.rate [rad/s]", "slider.position [m]", "slider.rate [m/s]", "mass [kg]"]
-INITIAL = {
+INITIAL = {  # coordinates that are not here: 0
     "r_BN_N": [-0.026007411935387477, -0.00544573561641666, 0],
-    "v_BN_N": [0.0005453813160843156, -0.00106740682423953, 0], "omega_BN_B": [0, 0, 0],
-    "arm.position": 0.5235987755982988, "arm.rate": 0.1, "slider.position": 0.02, "slider.rate": 0.001}
+    "v_BN_N": [0.0005453813160843156, -0.00106740682423953, 0], "q_BN": [1, 0, 0, 0], "sigma_BN": [0, 0, 0],
+    "omega_BN_B": [0, 0, 0], "arm.position": 0.5235987755982988, "arm.rate": 0.1, "slider.position": 0.02,
+    "slider.rate": 0.001}
 INPUTS = [  # from when on [s, N, N m, kg/s]
     [0, {"arm.torque": 0, "slider.force": 1.5, "push.force": [0, 0, 0]}],
     [1, {"arm.torque": 0.2, "push.force": [-1, 0, 0]}], [2, {"arm.torque": 0, "push.force": [0, 0, 0]}]]
@@ -60,11 +61,11 @@ HALVES = [name for name in ("bsm", "mjscene") if name not in REFUSED]
 
 
 class Vehicle(sysModel.SysModel):
-    """In a task after its `modules`: it sets the state of t = 0, and holds what acts."""
+    """In a task after its `modules`: it sets the state of t = 0, again at every Reset, and holds what acts."""
 
     def __init__(self, engine):
         super().__init__()
-        self.modules, self.parts, self.holds, self.acting, self.coming = [], {}, [], {}, list(INPUTS)
+        self.modules, self.parts, self.holds = [], {}, []
         getattr(self, engine)()
         self.modules.append(self.body)
         self.integrator = INTEGRATOR(self.body)
@@ -101,11 +102,12 @@ class Vehicle(sysModel.SysModel):
         self.holds.append(lambda now: message.write(getattr(messaging, kind + "MsgPayload")(**say(self.acting)), now))
 
     def Reset(self, now):
-        for name in self.states.keys() & INITIAL.keys():
-            state, row = self.states[name]
-            state = self.body.dynManager.getStateObject(state)
+        self.acting, self.coming = {}, list(INPUTS)
+        self.body.timeBefore, self.body.timeBeforeNanos = 1e-9 * now, now  # an MJScene has that of an earlier run
+        for name, (state, row) in self.states.items():
+            state, value = self.body.dynManager.getStateObject(state), INITIAL.get(name, 0)
             column = np.array(state.getState())
-            column[row:row + np.size(INITIAL[name]), 0] = INITIAL[name]
+            column[row:row + np.size(value), 0] = value
             state.setState(column)
 
     def UpdateState(self, now):
@@ -158,7 +160,7 @@ def build(sim, task, engine="mjscene"):
 
 
 if __name__ == "__main__":
-    line = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    line = argparse.ArgumentParser(description=__doc__.split("\n")[0].replace("%", "%%"))
     line.add_argument("--engine", choices=["bsm", "mjscene", "both"], default="both")
     line.add_argument("--step", type=float, default=STEP, help="[s]")
     line.add_argument("--duration", type=float, default=DURATION, help="[s]")

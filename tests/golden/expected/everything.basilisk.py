@@ -35,7 +35,7 @@ COLUMNS = [
     "v_CN_N.z [m/s]", "rw_slanted.rate [rad/s]", "rw_heavy.rate [rad/s]", "rw_out.rate [rad/s]",
     "wing.1.position [rad]", "wing.1.rate [rad/s]", "wing.2.position [rad]", "wing.2.rate [rad/s]",
     "wing.3.position [rad]", "wing.3.rate [rad/s]", "mass [kg]"]
-INITIAL = {
+INITIAL = {  # coordinates that are not here: 0
     "r_BN_N": [-2814237.218545605, 5243396.717025854, 3673809.477710733],
     "v_BN_N": [-6214.922991324592, -4107.620544118474, 1244.919283846151],
     "q_BN": [0.9515485246437886, 0.23929833774473033, 0.189307857412, 0.038134576474850156],
@@ -118,11 +118,11 @@ def cross(a, b):  # numpy's takes twenty times as long
 
 
 class Vehicle(sysModel.SysModel):
-    """In a task after its `modules`: it sets the state of t = 0, and holds what acts."""
+    """In a task after its `modules`: it sets the state of t = 0, again at every Reset, and holds what acts."""
 
     def __init__(self, engine):
         super().__init__()
-        self.modules, self.parts, self.holds, self.acting, self.coming = [], {}, [], {}, list(INPUTS)
+        self.modules, self.parts, self.holds = [], {}, []
         self.kept = []  # Basilisk has raw pointers to these
         getattr(self, engine)()
         self.modules.append(self.body)
@@ -206,11 +206,12 @@ class Vehicle(sysModel.SysModel):
         self.holds.append(lambda now: message.write(getattr(messaging, kind + "MsgPayload")(**say(self.acting)), now))
 
     def Reset(self, now):
-        for name in self.states.keys() & INITIAL.keys():
-            state, row = self.states[name]
-            state = self.body.dynManager.getStateObject(state)
+        self.acting, self.coming = {}, list(INPUTS)
+        self.body.timeBefore, self.body.timeBeforeNanos = 1e-9 * now, now  # an MJScene has that of an earlier run
+        for name, (state, row) in self.states.items():
+            state, value = self.body.dynManager.getStateObject(state), INITIAL.get(name, 0)
             column = np.array(state.getState())
-            column[row:row + np.size(INITIAL[name]), 0] = INITIAL[name]
+            column[row:row + np.size(value), 0] = value
             state.setState(column)
         self.integrator.setAbsoluteTolerance(ABSOLUTE)
         self.integrator.setRelativeTolerance(RELATIVE)
@@ -271,7 +272,7 @@ def build(sim, task, engine="mjscene"):
 
 
 if __name__ == "__main__":
-    line = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    line = argparse.ArgumentParser(description=__doc__.split("\n")[0].replace("%", "%%"))
     line.add_argument("--engine", choices=["bsm", "mjscene", "both"], default="both")
     line.add_argument("--step", type=float, default=STEP, help="[s]")
     line.add_argument("--duration", type=float, default=DURATION, help="[s]")

@@ -26,9 +26,9 @@ COLUMNS = [
     "q_BN.w [1]", "q_BN.x [1]", "q_BN.y [1]", "q_BN.z [1]", "omega_BN_B.x [rad/s]", "omega_BN_B.y [rad/s]",
     "omega_BN_B.z [rad/s]", "r_CN_N.x [m]", "r_CN_N.y [m]", "r_CN_N.z [m]", "v_CN_N.x [m/s]", "v_CN_N.y [m/s]",
     "v_CN_N.z [m/s]", "mass [kg]"]
-INITIAL = {
+INITIAL = {  # coordinates that are not here: 0
     "r_BN_N": [-2814237.1832776526, 5243396.919296761, 3673809.3981125527],
-    "v_BN_N": [-6214.922320011756, -4107.6201953659565, 1244.9223786004761], "omega_BN_B": [0, 0, 0],
+    "v_BN_N": [-6214.922320011756, -4107.6201953659565, 1244.9223786004761],
     "r_CN_N": [-2814237.0832776525, 5243396.719296761, 3673809.4481125525]}
 INPUTS = [[0, {"push.force": [3, -6, 9]}], [30, {"push.force": [0, 0, 0]}]]  # from when on [s, N, N m, kg/s]
 # HUB: with what is fixed on it: mass, centre, inertia about it [kg, m, kg m2]
@@ -49,11 +49,11 @@ HALVES = [name for name in ("bsm", "mjscene") if name not in REFUSED]
 
 
 class Vehicle(sysModel.SysModel):
-    """In a task after its `modules`: it sets the state of t = 0, and holds what acts."""
+    """In a task after its `modules`: it sets the state of t = 0, again at every Reset, and holds what acts."""
 
     def __init__(self, engine):
         super().__init__()
-        self.modules, self.parts, self.holds, self.acting, self.coming = [], {}, [], {}, list(INPUTS)
+        self.modules, self.parts, self.holds = [], {}, []
         self.kept = []  # Basilisk has raw pointers to these
         getattr(self, engine)()
         self.modules.append(self.body)
@@ -124,11 +124,12 @@ class Vehicle(sysModel.SysModel):
         self.holds.append(lambda now: message.write(getattr(messaging, kind + "MsgPayload")(**say(self.acting)), now))
 
     def Reset(self, now):
-        for name in self.states.keys() & INITIAL.keys():
-            state, row = self.states[name]
-            state = self.body.dynManager.getStateObject(state)
+        self.acting, self.coming = {}, list(INPUTS)
+        self.body.timeBefore, self.body.timeBeforeNanos = 1e-9 * now, now  # an MJScene has that of an earlier run
+        for name, (state, row) in self.states.items():
+            state, value = self.body.dynManager.getStateObject(state), INITIAL.get(name, 0)
             column = np.array(state.getState())
-            column[row:row + np.size(INITIAL[name]), 0] = INITIAL[name]
+            column[row:row + np.size(value), 0] = value
             state.setState(column)
 
     def UpdateState(self, now):
@@ -181,7 +182,7 @@ def build(sim, task, engine="bsm"):
 
 
 if __name__ == "__main__":
-    line = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    line = argparse.ArgumentParser(description=__doc__.split("\n")[0].replace("%", "%%"))
     line.add_argument("--engine", choices=["bsm", "mjscene", "both"], default="both")
     line.add_argument("--step", type=float, default=STEP, help="[s]")
     line.add_argument("--duration", type=float, default=DURATION, help="[s]")

@@ -32,11 +32,11 @@ COLUMNS = [
     "omega_BN_B.z [rad/s]", "r_CN_N.x [m]", "r_CN_N.y [m]", "r_CN_N.z [m]", "v_CN_N.x [m/s]", "v_CN_N.y [m/s]",
     "v_CN_N.z [m/s]", "blob.position [m]", "blob.rate [m/s]", "bob.phi.position [rad]", "bob.phi.rate [rad/s]",
     "bob.theta.position [rad]", "bob.theta.rate [rad/s]", "mass [kg]"]
-INITIAL = {
+INITIAL = {  # coordinates that are not here: 0
     "r_BN_N": [-0.02920526117133641, -0.055925302501946036, 0.31605072417140584],
-    "v_BN_N": [-0.009591025217698466, 0.018603706260549916, -3.633595813891657e-05], "omega_BN_B": [0, 0, 0],
-    "blob.position": 0.05, "bob.phi.position": 0.25, "bob.phi.rate": 0.25, "bob.theta.position": 0.125,
-    "bob.theta.rate": -0.5}
+    "v_BN_N": [-0.009591025217698466, 0.018603706260549916, -3.633595813891657e-05], "q_BN": [1, 0, 0, 0],
+    "sigma_BN": [0, 0, 0], "omega_BN_B": [0, 0, 0], "blob.position": 0.05, "bob.phi.position": 0.25,
+    "bob.phi.rate": 0.25, "bob.theta.position": 0.125, "bob.theta.rate": -0.5}
 INPUTS = [  # from when on [s, N, N m, kg/s]
     [
         0,
@@ -109,11 +109,11 @@ def cross(a, b):  # numpy's takes twenty times as long
 
 
 class Vehicle(sysModel.SysModel):
-    """In a task after its `modules`: it sets the state of t = 0, and holds what acts."""
+    """In a task after its `modules`: it sets the state of t = 0, again at every Reset, and holds what acts."""
 
     def __init__(self, engine):
         super().__init__()
-        self.modules, self.parts, self.holds, self.acting, self.coming = [], {}, [], {}, list(INPUTS)
+        self.modules, self.parts, self.holds = [], {}, []
         self.kept = []  # Basilisk has raw pointers to these
         getattr(self, engine)()
         self.modules.append(self.body)
@@ -181,11 +181,12 @@ class Vehicle(sysModel.SysModel):
         self.holds.append(lambda now: message.write(getattr(messaging, kind + "MsgPayload")(**say(self.acting)), now))
 
     def Reset(self, now):
-        for name in self.states.keys() & INITIAL.keys():
-            state, row = self.states[name]
-            state = self.body.dynManager.getStateObject(state)
+        self.acting, self.coming = {}, list(INPUTS)
+        self.body.timeBefore, self.body.timeBeforeNanos = 1e-9 * now, now  # an MJScene has that of an earlier run
+        for name, (state, row) in self.states.items():
+            state, value = self.body.dynManager.getStateObject(state), INITIAL.get(name, 0)
             column = np.array(state.getState())
-            column[row:row + np.size(INITIAL[name]), 0] = INITIAL[name]
+            column[row:row + np.size(value), 0] = value
             state.setState(column)
 
     def UpdateState(self, now):
@@ -238,7 +239,7 @@ def build(sim, task, engine="mjscene"):
 
 
 if __name__ == "__main__":
-    line = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    line = argparse.ArgumentParser(description=__doc__.split("\n")[0].replace("%", "%%"))
     line.add_argument("--engine", choices=["bsm", "mjscene", "both"], default="both")
     line.add_argument("--step", type=float, default=STEP, help="[s]")
     line.add_argument("--duration", type=float, default=DURATION, help="[s]")

@@ -23,10 +23,10 @@ COLUMNS = [
     "omega_BN_B.z [rad/s]", "r_CN_N.x [m]", "r_CN_N.y [m]", "r_CN_N.z [m]", "v_CN_N.x [m/s]", "v_CN_N.y [m/s]",
     "v_CN_N.z [m/s]", "rw_x.rate [rad/s]", "rw_y.rate [rad/s]", "rw_z.rate [rad/s]", "wing_p.1.position [rad]",
     "wing_p.1.rate [rad/s]", "wing_m.1.position [rad]", "wing_m.1.rate [rad/s]", "mass [kg]"]
-INITIAL = {
+INITIAL = {  # coordinates that are not here: 0
     "r_BN_N": [-2.0301221021717148e-17, 0, -0.03564200414018731],
-    "v_BN_N": [0.0007128400828037462, 0.0003564200414018728, -4.0602442043434296e-19],
-    "omega_BN_B": [0.01, -0.02, 0.015], "wing_p.1.position": 0.20943951023931956,
+    "v_BN_N": [0.0007128400828037462, 0.0003564200414018728, -4.0602442043434296e-19], "q_BN": [1, 0, 0, 0],
+    "sigma_BN": [0, 0, 0], "omega_BN_B": [0.01, -0.02, 0.015], "wing_p.1.position": 0.20943951023931956,
     "wing_m.1.position": 0.20943951023931956}
 INPUTS = [[0, {"rw_x.torque": 0.01, "rw_y.torque": -0.015, "rw_z.torque": 0.008}]]  # from when on [s, N, N m, kg/s]
 # HUB: with what is fixed on it: mass, centre, inertia about it [kg, m, kg m2]
@@ -55,11 +55,11 @@ HALVES = [name for name in ("bsm", "mjscene") if name not in REFUSED]
 
 
 class Vehicle(sysModel.SysModel):
-    """In a task after its `modules`: it sets the state of t = 0, and holds what acts."""
+    """In a task after its `modules`: it sets the state of t = 0, again at every Reset, and holds what acts."""
 
     def __init__(self, engine):
         super().__init__()
-        self.modules, self.parts, self.holds, self.acting, self.coming = [], {}, [], {}, list(INPUTS)
+        self.modules, self.parts, self.holds = [], {}, []
         getattr(self, engine)()
         self.modules.append(self.body)
         self.integrator = INTEGRATOR(self.body)
@@ -123,11 +123,12 @@ class Vehicle(sysModel.SysModel):
         self.holds.append(lambda now: message.write(getattr(messaging, kind + "MsgPayload")(**say(self.acting)), now))
 
     def Reset(self, now):
-        for name in self.states.keys() & INITIAL.keys():
-            state, row = self.states[name]
-            state = self.body.dynManager.getStateObject(state)
+        self.acting, self.coming = {}, list(INPUTS)
+        self.body.timeBefore, self.body.timeBeforeNanos = 1e-9 * now, now  # an MJScene has that of an earlier run
+        for name, (state, row) in self.states.items():
+            state, value = self.body.dynManager.getStateObject(state), INITIAL.get(name, 0)
             column = np.array(state.getState())
-            column[row:row + np.size(INITIAL[name]), 0] = INITIAL[name]
+            column[row:row + np.size(value), 0] = value
             state.setState(column)
 
     def UpdateState(self, now):
@@ -180,7 +181,7 @@ def build(sim, task, engine="bsm"):
 
 
 if __name__ == "__main__":
-    line = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    line = argparse.ArgumentParser(description=__doc__.split("\n")[0].replace("%", "%%"))
     line.add_argument("--engine", choices=["bsm", "mjscene", "both"], default="both")
     line.add_argument("--step", type=float, default=STEP, help="[s]")
     line.add_argument("--duration", type=float, default=DURATION, help="[s]")
