@@ -34,6 +34,14 @@ struct Law {
   Mat<S> H;       // [kg m]
   Vec<S> n0, f0;  // [N m], [N]
 
+  /// All of them, one after another.
+  static constexpr int kNumbers = 6 + 6 + 9 + 3 + 3;
+  S* numbers() {
+    static_assert(sizeof(Law) == kNumbers * sizeof(S));
+    return reinterpret_cast<S*>(this);
+  }
+  const S* numbers() const { return const_cast<Law*>(this)->numbers(); }
+
   /// Add a child's law, or begin with it where it is the first. It moves from the child's origin to
   /// the parent's, d away: a' = a_P + omegaDot_P x d and n_P = n + d x f give H_P = H + d~ M and
   /// J_P = J + Z + Z^T with Z^T = (H + H_P) / 2 d~^T, here column by column of H. Inlined, or the

@@ -346,17 +346,17 @@ class Vehicle {
         [&](auto& group) { add(group.limb.contribute(field, r_CB), group.is_full); });
   }
 
-  void add(const Law<S>& law, bool is_full) {
-    const auto both = [is_full](const S& value) { return gathered<H, S>(value, is_full); };
-    const auto vec = [&both](const Vec<S>& v) { return Vec<H>{both(v.x), both(v.y), both(v.z)}; };
-    const auto sym = [&both](const Sym<S>& m) {
-      return Sym<H>{both(m.xx), both(m.yy), both(m.zz), both(m.xy), both(m.xz), both(m.yz)};
-    };
-    hub_.J += sym(law.J);
-    hub_.M += sym(law.M);
-    hub_.H += {vec(law.H.x), vec(law.H.y), vec(law.H.z)};
-    hub_.n0 += vec(law.n0);
-    hub_.f0 += vec(law.f0);
+  void add(const Law<S>& law, bool is_full) { is_full ? add<true>(law) : add<false>(law); }
+  /// Two neighbours at once: half of the loads and stores.
+  template <bool kIsFull>
+  void add(const Law<S>& law) {
+    H* to = hub_.numbers();
+    const S* from = law.numbers();
+    constexpr int kLast = Law<S>::kNumbers - 1;
+    static_assert(kLast % 2 == 0);
+#pragma GCC unroll 16
+    for (int i = 0; i < kLast; i += 2) add_two_gathered<kIsFull>(to + i, from[i], from[i + 1]);
+    to[kLast] += gathered<H, S>(from[kLast], kIsFull);
   }
 
   const Plan& plan_;  // of lane 0, for what all share

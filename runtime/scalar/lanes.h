@@ -109,5 +109,12 @@ inline double sum_of_lanes(const Pair& value, bool of_both) {
   const double first = _mm_cvtsd_f64(lanes);
   return of_both ? first + _mm_cvtsd_f64(_mm_unpackhi_pd(lanes, lanes)) : first;
 }
+/// Add the sums of two to to[0] and to[1].
+template <bool kOfBoth>
+void add_two_sums_of_lanes(double* to, const Pair& first, const Pair& second) {
+  Pair sum = _mm_unpacklo_pd(first, second);
+  if constexpr (kOfBoth) sum += Pair(_mm_unpackhi_pd(first, second));
+  (Pair::load_unaligned(to) + sum).store_unaligned(to);
+}
 
 }  // namespace twincraft::TWINCRAFT_KERNEL

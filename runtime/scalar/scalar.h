@@ -145,4 +145,15 @@ H gathered(const S& value, bool is_full) {
   }
 }
 
+/// Add two such sums to to[0] and to[1].
+template <bool kIsFull, class H, class S>
+void add_two_gathered(H* to, const S& first, const S& second) {
+  if constexpr (kLimbs<H, S> == 1) {
+    to[0] += first;
+    to[1] += second;
+  } else {
+    add_two_sums_of_lanes<kIsFull>(to, first, second);
+  }
+}
+
 }  // namespace twincraft::TWINCRAFT_KERNEL
