@@ -68,8 +68,10 @@ class Vehicle {
                      vanishes(held_force.z()) &&
                      plans_[l]->tree.links.data()->first_moment.isZero(0.0);
     }
-    motor_torque_ = {};
-    for (const RotorOn<H, H>& rotor : rotors_) motor_torque_ += rotor.motor_torque * rotor.axis_L;
+    held_n0_ = {};
+    for (const RotorOn<H, H>& rotor : rotors_) held_n0_ += rotor.motor_torque * rotor.axis_L;
+    held_n0_ -= held_.torque;
+    if (turns_alone_) hub_.f0 = {};
     limbs_.for_each([this, &held](auto& group) {
       for (std::size_t l = 0; l < kLanes<S>; ++l) {
         const std::size_t p = l / kLimbs<H, S>;
@@ -122,16 +124,24 @@ class Vehicle {
     derivative_steady(time, state, rate);
   }
 
+  /// The hub's accelerations, in its axes; of B in the falling frame.
+  struct HubMotion {
+    Vec<H> omega_dot, a;
+  };
   /// The hub equation's matrix, factored: Schur complement of M.
   struct HubFactors {
     /// In place: a copy would be read, wider than it was written, while it is on its way to memory.
-    void factor(const Law<H>& hub) {
+    [[gnu::always_inline]] void factor(const Law<H>& hub) {
       M = Ldl<H>(hub.M);
       coupling = {M.solve(hub.H.row_x()), M.solve(hub.H.row_y()), M.solve(hub.H.row_z())};
       const Mat<H>& c = coupling;  // D - C A^-1 B, symmetric
       schur = Ldl<H>({hub.J.xx - dot(hub.H.row_x(), c.x), hub.J.yy - dot(hub.H.row_y(), c.y),
                       hub.J.zz - dot(hub.H.row_z(), c.z), hub.J.xy - dot(hub.H.row_x(), c.y),
                       hub.J.xz - dot(hub.H.row_x(), c.z), hub.J.yz - dot(hub.H.row_y(), c.z)});
+    }
+    [[gnu::always_inline]] HubMotion solve(const Law<H>& hub) const {
+      const Vec<H> omega_dot = schur.solve(transposed(coupling, hub.f0) - hub.n0);
+      return {omega_dot, -M.solve(hub.f0) - coupling * omega_dot};
     }
     Ldl<H> M;
     Mat<H> coupling;  // M^-1 H^T
@@ -195,13 +205,18 @@ class Vehicle {
     begin_hub_law(omega, rotor_momentum(state, omega));
     if (push_.acts()) push(time, state, omega);
     sum_laws(vector(state, 0));
-    if (!is_rigid_) factors_.factor(hub_);
-    const Vec<H> omega_dot = factors_.schur.solve(transposed(factors_.coupling, hub_.f0) - hub_.n0);
-    const Vec<H> a = -factors_.M.solve(hub_.f0) - factors_.coupling * omega_dot;
+    HubMotion hub;
+    if (is_rigid_) {
+      hub = factors_.solve(hub_);
+    } else {
+      HubFactors factors;  // not factors_: these stay in registers
+      factors.factor(hub_);
+      hub = factors.solve(hub_);
+    }
 
-    const Vec<S> omega_dot_S = spread(omega_dot), a_S = spread(a);
+    const Vec<S> omega_dot_S = spread(hub.omega_dot), a_S = spread(hub.a);
     limbs_.for_each([&](auto& group) { group.limb.recover(omega_dot_S, a_S, rate); });
-    put_hub_rates(chart, state, dcm_NB_ * a + g_N_, omega_dot, rate);
+    put_hub_rates(chart, state, dcm_NB_ * hub.a + g_N_, hub.omega_dot, rate);
     const Layout layout = layout_;  // or every store would have it read again
     for (int i = layout.joint, from = layout.joint_rate; i < layout.joint_rate; ++i, ++from)
       put_entry(rate, i, entry<H>(state, from));
@@ -224,8 +239,7 @@ class Vehicle {
   [[gnu::noinline]] void turn_alone(const Number<H>* state, Number<H>* rate) {
     const Vec<H> omega = vector(state, layout_.omega);
     const Vec<H> spin = rotor_momentum(state, omega);
-    hub_.n0 = cross(omega, mass_.J * omega + spin) + (motor_torque_ - held_.torque);
-    hub_.f0 = {};
+    hub_.n0 = held_n0_ + cross(omega, mass_.J * omega + spin);
     Vec<H> g_N;
     if (plan_.law != GravityLaw::kNone) g_N = Field<H>(mu_, vector(state, 0), false).at_hub();
     const Chart chart(state, Layout::kAttitude);
@@ -277,7 +291,7 @@ class Vehicle {
       hub_.M = hub_alone_.M;
       hub_.H = hub_alone_.H;
     }
-    hub_.n0 = cross(omega, mass_.J * omega + spin) + (motor_torque_ - held_.torque);
+    hub_.n0 = held_n0_ + cross(omega, mass_.J * omega + spin);
     hub_.f0 = cross(omega, cross(omega, mass_.moment)) - held_.force;
   }
 
@@ -330,10 +344,9 @@ class Vehicle {
 
   void add_limbs(const Field<H>* field, const Vec<H>* r_CB) {
     if (field == nullptr && r_CB == nullptr) return add_limbs_in(nullptr, nullptr);
-    Field<S> field_S;
-    Vec<S> r_CB_S;
-    if (field != nullptr) field_S = spread(*field);
-    if (r_CB != nullptr) r_CB_S = spread(*r_CB);
+    // Not zeroed first where they are told: that takes longer than to spread them.
+    const Field<S> field_S = field == nullptr ? Field<S>() : spread(*field);
+    const Vec<S> r_CB_S = r_CB == nullptr ? Vec<S>() : spread(*r_CB);
     add_limbs_in(field == nullptr ? nullptr : &field_S, r_CB == nullptr ? nullptr : &r_CB_S);
   }
   void add_limbs_in(const Field<S>* field, const Vec<S>* r_CB) {
@@ -372,14 +385,14 @@ class Vehicle {
   Vec<H> held_at_center_;
   bool acts_at_center_ = false;
   bool acts_on_hub_ = false, acts_on_limbs_ = false;  // what is held, in some lane
-  Vec<H> motor_torque_;                               // of all rotors on the hub, on the rotors
+  Vec<H> held_n0_;                                    // of rotors' motors and of what is held
   Limbs<H, S> limbs_;
   bool is_rigid_ = false;      // no limbs, no draining: factored once
   bool turns_alone_ = false;   // see turn_alone()
   bool has_elements_ = false;  // that may feel another field than B does
   bool pulls_on_hub_ = false;  // some element of the hub does, or feels a gradient
-  HubFactors factors_;
-  Sym<H> inverse_inertia_;  // of a rigid hub, about its centre of mass
+  HubFactors factors_;         // of a rigid hub
+  Sym<H> inverse_inertia_;     // of a rigid hub, about its centre of mass
   Law<H> hub_alone_, hub_;
   Mat<H> dcm_NB_;    // unless it turns alone; so is
   Vec<H> g_N_;       // [m/s^2] the common acceleration of the falling frame

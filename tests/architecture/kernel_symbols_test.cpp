@@ -86,10 +86,10 @@ INSTANTIATE_TEST_SUITE_P(
     Of, KernelSymbols,
     testing::Values(KernelObjects{"avx2",
                                   TWINCRAFT_AVX2_OBJECTS,
-                                  {"new_kernel(", "books_of<", "new_observer("}},
+                                  {"new_kernel(", "put_books<", "new_observer("}},
                     KernelObjects{"avx512",
                                   TWINCRAFT_AVX512_OBJECTS,
-                                  {"new_kernel(", "books_of<", "new_observer("}},
+                                  {"new_kernel(", "put_books<", "new_observer("}},
                     KernelObjects{"sums_avx2", TWINCRAFT_SUMS_AVX2_OBJECTS, {"stage_sums("}}),
     [](const auto& each) { return each.param.set; });
 
