@@ -136,8 +136,9 @@ class ForceModel {
 
 /// g(r) of a point mass [m/s^2].
 inline Vector3d point_gravity(double mu, const Vector3d& r) {
-  const double r2 = r.squaredNorm();
-  return r * (-mu / (r2 * std::sqrt(r2)));
+  const double r2 = r.squaredNorm(), inverse_r2 = 1.0 / r2;
+  // As in Field: the root and the quotient do not wait for each other.
+  return r * (-(mu * inverse_r2 * inverse_r2) * std::sqrt(r2));
 }
 
 }  // namespace twincraft
