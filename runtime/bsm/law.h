@@ -36,11 +36,8 @@ struct Law {
 
   /// All of them, one after another.
   static constexpr int kNumbers = 6 + 6 + 9 + 3 + 3;
-  S* numbers() {
-    static_assert(sizeof(Law) == kNumbers * sizeof(S));
-    return reinterpret_cast<S*>(this);
-  }
-  const S* numbers() const { return const_cast<Law*>(this)->numbers(); }
+  S* numbers() { return &J.xx; }
+  const S* numbers() const { return &J.xx; }
 
   /// Add a child's law, or begin with it where it is the first. It moves from the child's origin to
   /// the parent's, d away: a' = a_P + omegaDot_P x d and n_P = n + d x f give H_P = H + d~ M and
@@ -86,5 +83,6 @@ struct Law {
     put(J, j);
   }
 };
+static_assert(sizeof(Law<double>) == Law<double>::kNumbers * sizeof(double));
 
 }  // namespace twincraft::bsm::TWINCRAFT_KERNEL
