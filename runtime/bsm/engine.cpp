@@ -48,6 +48,7 @@ class BsmEngine final : public Engine {
 
   std::string_view name() const override { return kBsmKey; }
   const StateLayout& layout() const override { return machine_->layout; }
+  bool may_use_avx2() const override { return set_ != InstructionSet::kPortable; }
   std::unique_ptr<Engine> another() const override {
     return std::make_unique<BsmEngine>(machine_, set_);
   }

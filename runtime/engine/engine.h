@@ -36,6 +36,10 @@ class Engine {
   /// changes is shared. Each may be used on a thread of its own.
   virtual std::unique_ptr<Engine> another() const = 0;
 
+  /// Whether its numbers may be summed with AVX2: this processor has it, and the engine is not
+  /// asked to do with less.
+  virtual bool may_use_avx2() const { return false; }
+
   /// The state of the model at t = 0.
   virtual Eigen::VectorXd initial_state() const = 0;
 

@@ -14,6 +14,7 @@ class EngineOde final : public Ode {
     engine_.derivative(time, state, rate);
   }
   void finish_step(std::span<double> state) override { engine_.finish_step(state); }
+  StageAccess access() const override { return {engine_.may_use_avx2()}; }
 
  private:
   Engine& engine_;

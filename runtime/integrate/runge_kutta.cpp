@@ -19,8 +19,9 @@ Tableau::Row difference(const Tableau::Row& left, const Tableau::Row& right) {
 }
 
 const StageSums& sums_for(const Ode& ode) {
-  const std::size_t written = ode.written_at_once();
-  return written < 4 ? sums_x86_64::stage_sums(written == 2) : sums_avx2::stage_sums(true);
+  const auto [has_avx2, written_at_once] = ode.access();
+  return has_avx2 ? sums_avx2::stage_sums(written_at_once >= 4)
+                  : sums_x86_64::stage_sums(written_at_once >= 2);
 }
 
 }  // namespace
@@ -80,24 +81,22 @@ void RungeKutta::restart(std::span<const double> state) {
 
 void RungeKutta::step(double time, double h) {
   evaluate_stages(time, h);
-  solution_sum_.add_compensated(solution_sum_, h, stages_.data(), in(state_), out(state_));
+  state_is_finite_ =
+      solution_sum_.add_compensated(solution_sum_, h, stages_.data(), in(state_), out(state_));
   ode_.finish_step(state());
 }
 
 void RungeKutta::attempt(double time, double h) {
   evaluate_stages(time, h);
-  solution_sum_.add_compensated(solution_sum_, h, stages_.data(), in(state_), out(proposal_));
+  proposal_is_finite_ =
+      solution_sum_.add_compensated(solution_sum_, h, stages_.data(), in(state_), out(proposal_));
   error_sum_.add(error_sum_, h, stages_.data(), zero_.data(), error_.data());
 }
 
 void RungeKutta::accept() {
   std::swap(state_, proposal_);
+  state_is_finite_ = proposal_is_finite_;
   ode_.finish_step(state());
-}
-
-bool RungeKutta::is_finite(const Eigen::VectorXd& padded) {
-  // Zero times a finite number is zero; times infinity or NaN it is NaN, which no sum forgets.
-  return (0.0 * padded).sum() == 0.0;
 }
 
 int RungeKutta::first_non_finite() const {

@@ -23,9 +23,8 @@ class Ode {
   virtual int size() const = 0;
   virtual void derivative(double time, std::span<const double> state, std::span<double> rate) = 0;
   virtual void finish_step(std::span<double> state) = 0;
-  /// How many numbers of a rate one store of derivative() writes, the first of them at a multiple
-  /// of as many. @pre four or more: the processor has AVX2
-  virtual std::size_t written_at_once() const { return 1; }
+  /// How its rates may be summed.
+  virtual StageAccess access() const { return {}; }
 };
 
 class RungeKutta {
@@ -60,8 +59,9 @@ class RungeKutta {
   std::span<const double> proposal() const { return entries(proposal_.value); }
   std::span<const double> error() const { return entries(error_); }
 
-  bool state_is_finite() const { return is_finite(state_.value); }
-  bool proposal_is_finite() const { return is_finite(proposal_.value); }
+  /// As the last step() or accept(), or attempt(), left them.
+  bool state_is_finite() const { return state_is_finite_; }
+  bool proposal_is_finite() const { return proposal_is_finite_; }
 
   /// After a step whose result is not finite: the entry that failed first, by stage.
   int first_non_finite() const;
@@ -78,7 +78,6 @@ class RungeKutta {
   static Compensated<double> out(Solution& solution) {
     return {solution.value.data(), solution.carry.data()};
   }
-  static bool is_finite(const Eigen::VectorXd& padded);
 
   const Tableau& tableau_;
   Ode& ode_;
@@ -91,6 +90,7 @@ class RungeKutta {
   Eigen::VectorXd trial_;
   Solution state_;
   Solution proposal_;
+  bool state_is_finite_ = true, proposal_is_finite_ = true;
   Eigen::VectorXd error_;
   Eigen::VectorXd zero_;
 };

@@ -71,12 +71,21 @@ void add(const WeightedSum& sum, double h, const double* stages, const double* b
     store(load(base + i) + terms.at(i), result + i);
 }
 
+/// Zero times a finite number is zero; times infinity or NaN it is NaN, which no sum forgets.
+bool are_zero(const Lanes& lanes) {
+  double sum = 0.0;
+#pragma GCC unroll 8
+  for (std::size_t lane = 0; lane < kLanes; ++lane) sum += lanes[lane];
+  return sum == 0.0;
+}
+
 template <std::size_t kTerms, bool kIsWhole>
-void add_compensated(const WeightedSum& sum, double h, const double* stages,
+bool add_compensated(const WeightedSum& sum, double h, const double* stages,
                      const Compensated<const double>& base, const Compensated<double>& result) {
   const Terms<kTerms, kIsWhole> terms(sum, h, stages);
   const auto [value, carry] = base;
   const auto [new_value, new_carry] = result;
+  Lanes zeros{};
 #pragma GCC unroll 2
   for (std::size_t i = 0, end = sum.padded_size; i < end; i += kLanes) {
     const Lanes before = load(value + i);
@@ -84,7 +93,9 @@ void add_compensated(const WeightedSum& sum, double h, const double* stages,
     const Lanes after = before + increment;
     store(after, new_value + i);
     store(increment - (after - before), new_carry + i);
+    zeros += 0.0 * after;
   }
+  return are_zero(zeros);
 }
 
 template <bool kIsWhole, std::size_t... kIndex>

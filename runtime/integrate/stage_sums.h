@@ -10,6 +10,13 @@
 
 namespace twincraft {
 
+/// How stages may be read. None of it is in the bytes of a sum.
+struct StageAccess {
+  bool has_avx2 = false;  // the processor, and whose stages they are may use it
+  /// How many numbers one store has written, the first of them at a multiple of as many.
+  std::size_t written_at_once = 1;
+};
+
 /// A value and what is still to be added to it. @tparam T  double or const double
 template <class T>
 struct Compensated {
@@ -19,7 +26,7 @@ struct Compensated {
 
 /// h * sum of coefficient * stage, over the non-zero coefficients only, added to a base.
 struct WeightedSum {
-  /// Every vector is padded to whole lanes of this many doubles.
+  /// Every vector is padded to a multiple of these.
   static constexpr std::size_t kLanes = 4;
 
   std::array<double, Tableau::kMaxStages> coefficient{};
@@ -31,7 +38,8 @@ struct WeightedSum {
                        double* result);
   Add add = nullptr;
   /// The same with what rounding took away from earlier sums; result may be base.
-  using AddTo = void (*)(const WeightedSum&, double h, const double* stages,
+  /// @return whether all of it is finite
+  using AddTo = bool (*)(const WeightedSum&, double h, const double* stages,
                          const Compensated<const double>& base, const Compensated<double>& result);
   AddTo add_compensated = nullptr;
 };
@@ -42,7 +50,7 @@ struct StageSums {
   std::array<WeightedSum::AddTo, Tableau::kMaxStages> add_compensated;
 };
 
-// @param is_written_whole  whether stages are written as wide as they are read, see Ode::written()
+// @param is_written_whole  whether stages are written as wide as they are read
 namespace sums_x86_64 {
 const StageSums& stage_sums(bool is_written_whole);
 }

@@ -50,6 +50,7 @@ class MujocoEngine final : public Engine {
 
   std::string_view name() const override { return kMujocoKey; }
   const StateLayout& layout() const override { return machine_->exchange.layout(); }
+  bool may_use_avx2() const override { return __builtin_cpu_supports("avx2") != 0; }
   std::unique_ptr<Engine> another() const override {
     return std::make_unique<MujocoEngine>(machine_);
   }

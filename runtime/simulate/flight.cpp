@@ -80,6 +80,7 @@ class Flight::BookkeepingOde final : public Ode {
     engine_.derivative(time, state.first(size_), rate.first(size_), books);
   }
   void finish_step(std::span<double> state) override { engine_.finish_step(state.first(size_)); }
+  StageAccess access() const override { return {engine_.may_use_avx2()}; }
 
  private:
   Engine& engine_;
@@ -101,6 +102,7 @@ class Flight::ExcusingOde final : public Ode {
     }
   }
   void finish_step(std::span<double> state) override { ode_.finish_step(state); }
+  StageAccess access() const override { return ode_.access(); }
 
   /// The engine's own words, for when no step is short enough; empty before it failed.
   const std::string& excuse() const { return excuse_; }

@@ -22,7 +22,7 @@ class LanesFlight::LanesOde final : public Ode {
     kernel_.derivative(time, state.data(), rate.data());
   }
   void finish_step(std::span<double> state) override { kernel_.finish_step(state.data()); }
-  std::size_t written_at_once() const override { return kernel_.lanes(); }
+  StageAccess access() const override { return {kernel_.lanes() >= 4, kernel_.lanes()}; }
 
  private:
   bsm::Kernel& kernel_;

@@ -100,7 +100,7 @@ class Batch final : public Ode {
     kernel_->derivative(time, state.data(), rate.data());
   }
   void finish_step(std::span<double> state) override { kernel_->finish_step(state.data()); }
-  std::size_t written_at_once() const override { return lanes_; }
+  StageAccess access() const override { return {lanes_ >= 4, lanes_}; }
 
  private:
   std::size_t lanes_;

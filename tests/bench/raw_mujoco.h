@@ -26,6 +26,7 @@ class RawMujoco final : public Ode {
   void derivative(double time, std::span<const double> state, std::span<double> rate) override;
   /// Normalise the quaternion of a free joint.
   void finish_step(std::span<double> state) override;
+  StageAccess access() const override { return {__builtin_cpu_supports("avx2") != 0}; }
 
   /// The MJCF's keyframe.
   Eigen::VectorXd initial_state() const;
