@@ -15,13 +15,15 @@ class Bookkeeper {
       : vehicle_(vehicle), state_(state), omega_(vehicle.vector(state, vehicle.layout_.omega)) {}
 
   BooksOf<H> books() {
-    const H inner = inner_power();
-    BooksOf<H> books{inner, inner, {}, {}};
-    const bool changes = acts() || vehicle_.tanks_.flow();
-    if (!falls() && !changes) return books;
-    const MassMotion<H> mass = motion();
-    if (falls()) books.force_N = mass.moment.mass * fall();
-    if (changes) book_changes(mass, books);
+    BooksOf<H> books;
+    if (falls() || acts() || vehicle_.tanks_.flow()) {
+      const MassMotion<H> mass = motion();
+      books.power = books.own_power = rotor_power() + mass.inner_power;
+      if (falls()) books.force_N = mass.moment.mass * fall();
+      if (acts() || vehicle_.tanks_.flow()) book_changes(mass, books);
+    } else {
+      books.power = books.own_power = rotor_power() + inner_power();
+    }
     return books;
   }
 
@@ -32,38 +34,75 @@ class Bookkeeper {
   }
   bool acts() const { return loads_act() || vehicle_.has_elements_; }
 
-  H inner_power() const {
+  H rotor_power() const {
     H power(0.0);
     for (const RotorOn<H, H>& rotor : vehicle_.rotors_) power += rotor.power(state_);
-    return power + of_limbs<Power>([&](const auto& limb, Power<S>& sum) {
-                     sum.power += limb.inner_power(state_);
-                   }).power;
+    return power;
+  }
+  /// Of limbs.
+  H inner_power() const {
+    return of_limbs<Power>(
+               [&](const auto& limb, Power<S>& sum) { sum.power += limb.inner_power(state_); })
+        .power;
   }
 
   /// Lets limbs know their velocities.
   MassMotion<H> motion() {
-    const Moment<H> hub{vehicle_.mass_.mass, vehicle_.mass_.moment};
     MassMotion<H> all = of_limbs<MassMotion>([&](auto& limb, MassMotion<S>& sum) {
+      sum.inner_power += limb.inner_power(state_);
       limb.trace(state_);
       limb.add_motion(sum);
     });
-    all.moment += hub;
+    all.moment += {vehicle_.mass_.mass, vehicle_.mass_.moment};
     return all;
   }
 
   void book_changes(const MassMotion<H>& mass, BooksOf<H>& books) const {
     const H inverse_mass = H(1.0) / mass.moment.mass;
-    const Vec<H> r_CB = inverse_mass * mass.moment.moment;
-    Tally<H> tally{omega_, r_CB, plus_cross(inverse_mass * mass.momentum, omega_, r_CB)};
+    const CenterMotion<H> center{omega_, inverse_mass * mass.moment.moment,
+                                 inverse_mass * mass.momentum};
+    const Vec<H> v_CB = center.v_CB();
     Mat<H> attitude_alone;
     if (vehicle_.turns_alone_) attitude_alone = attitude();
     const Mat<H>& dcm_NB = vehicle_.turns_alone_ ? attitude_alone : vehicle_.dcm_NB_;
-    if (loads_act()) tally.add_loads(loads(r_CB), books);
-    if (vehicle_.has_elements_) tally.add_gravity(gravity(), dcm_NB, books);
-    if (vehicle_.tanks_.flow()) tally.add_leaving(leaving(r_CB), books);
-    if (loads_act() || vehicle_.tanks_.flow())
-      tally.book_driving(dcm_NB, vehicle_.vector(state_, 3), books);
-    tally.book_own(dcm_NB, books);
+
+    Outside<H> outside{};
+    Vec<H> torque_PntC_B{}, driving{};  // driving: [N] what no potential covers
+    H lost_mass{};
+    if (loads_act()) {
+      outside = loads(center.r_CB);
+      driving = outside.pull.force;
+      books.power += power(outside);
+    }
+    if (vehicle_.has_elements_) {
+      const Outside<H> pulls = gravity();  // differences from that at B
+      outside += pulls;
+      books.force_N += dcm_NB * pulls.pull.force;
+      books.power += pulls.turn_power;
+    }
+    if (acts()) {
+      books.own_power += power(outside) - dot(outside.pull.force, v_CB);
+      torque_PntC_B = outside.pull.torque - cross(center.r_CB, outside.pull.force);
+    }
+    if (vehicle_.tanks_.flow()) {
+      const Leaving<H> lost = leaving(center);
+      const Vec<H> half = (H(0.5) * lost.mass) * v_CB;
+      books.own_power += lost.kinetic;
+      books.power += lost.kinetic + dot(lost.momentum + half, v_CB) + lost_potential(center);
+      torque_PntC_B += lost.H_PntC_B;
+      driving += lost.momentum + half + half;
+      lost_mass = lost.mass;
+    }
+    if (loads_act() || vehicle_.tanks_.flow()) {  // what B's own velocity makes of them
+      const Vec<H> v_BN_N = vehicle_.vector(state_, 3);
+      const Vec<H> driving_N = dcm_NB * driving, half_N = (H(0.5) * lost_mass) * v_BN_N;
+      books.power += dot(driving_N + half_N, v_BN_N);
+      books.force_N += driving_N + half_N + half_N;
+    }
+    books.torque_PntC_N = dcm_NB * torque_PntC_B;
+  }
+  H power(const Outside<H>& outside) const {
+    return outside.power + dot(omega_, outside.pull.torque);
   }
   // What a vehicle that turns alone does not leave behind.
   Vec<H> fall() const {
@@ -107,37 +146,42 @@ class Bookkeeper {
     }
   }
 
-  Leaving<H> leaving(const Vec<H>& r_CB) const {
-    const Vec<S> omega = vehicle_.spread(omega_);
-    const Field<H>& field = vehicle_.field_;
-    const Field<S> field_S = vehicle_.spread(field);
-    const Field<S>* pulls = vehicle_.has_elements_ ? &field_S : nullptr;
+  Leaving<H> leaving(const CenterMotion<H>& center) const {
+    const CenterMotion<S> center_S{vehicle_.spread(omega_), vehicle_.spread(center.r_CB),
+                                   vehicle_.spread(center.w_CB)};
     Leaving<H> sum = of_limbs<Leaving>(
-        [&](const auto& limb, Leaving<S>& of) { limb.add_leaving(omega, pulls, of); });
-    add_leaving_hub(field, sum);
-    if (!falls()) return sum;
-    const Moment<H>& lost = sum.moment;
-    sum.potential -= lost.mass * field.mu * root(field.inverse_r2);
-    if (vehicle_.plan_.law == GravityLaw::kSystemCom)  // the field is that at C
-      sum.potential -= dot(field.at_hub(), lost.moment - lost.mass * r_CB);
+        [&](const auto& limb, Leaving<S>& of) { limb.add_leaving(center_S, of); });
+    if (vehicle_.draining_.drains())
+      sum.add(vehicle_.draining_.mass_rate(), omega_, -center.r_CB, -center.v_CB());
     return sum;
   }
-  void add_leaving_hub(const Field<H>& field, Leaving<H>& sum) const {
-    const LinkDrain<H, H>& draining = vehicle_.draining_;
-    if (!draining.drains()) return;
-    sum.add_on_hub(draining.mass_rate(), omega_);
+  /// Beyond that of the same mass where B is and does not move.
+  H lost_potential(const CenterMotion<H>& center) const {
+    if (!falls()) return H(0.0);
+    const Field<H>& field = vehicle_.field_;
+    const Moment<H> lost = leaving_moment();
+    H power = -(lost.mass * field.mu * root(field.inverse_r2));
+    if (vehicle_.plan_.law == GravityLaw::kSystemCom)  // the field is that at C
+      power -= dot(field.at_hub(), lost.moment - lost.mass * center.r_CB);
+    if (!vehicle_.has_elements_) return power;
+    const Field<S> field_S = vehicle_.spread(field);
+    power += of_limbs<Power>([&](const auto& limb, Power<S>& sum) {
+               limb.add_lifted(field_S, sum);
+             }).power;
     for (std::size_t e = 0; e < vehicle_.elements_.size(); ++e)
-      sum.lift(draining.element_rate(e), vehicle_.elements_[e].r_EL, field);
+      power += lifted(vehicle_.draining_.element_rate(e), vehicle_.elements_[e].r_EL, field);
+    return power;
+  }
+  Moment<H> leaving_moment() const {
+    Moment<H> sum =
+        of_limbs<Moment>([](const auto& limb, Moment<S>& of) { limb.add_leaving_moment(of); });
+    if (vehicle_.draining_.drains()) {
+      const LinkMass<H>& rate = vehicle_.draining_.mass_rate();
+      sum += {rate.mass, rate.moment};
+    }
+    return sum;
   }
 
-  template <class Of>
-  struct Power {
-    Of power{};
-    Power& operator+=(const Power& o) {
-      power += o.power;
-      return *this;
-    }
-  };
   /// @param add  what a limb says, or like ones side by side, to a sum
   template <template <class> class Sum, class Add>
   Sum<H> of_limbs(const Add& add) const {
@@ -173,7 +217,7 @@ class Bookkeeper {
   }
   template <bool kIsFull>
   static MassMotion<H> total(const MassMotion<S>& m) {
-    return {total<kIsFull>(m.moment), total<kIsFull>(m.momentum)};
+    return {total<kIsFull>(m.moment), total<kIsFull>(m.momentum), total<kIsFull>(m.inner_power)};
   }
   template <bool kIsFull>
   static Outside<H> total(const Outside<S>& o) {
@@ -183,8 +227,8 @@ class Bookkeeper {
   }
   template <bool kIsFull>
   static Leaving<H> total(const Leaving<S>& o) {
-    return {total<kIsFull>(o.moment), total<kIsFull>(o.momentum), total<kIsFull>(o.H_PntB_B),
-            total<kIsFull>(o.kinetic), total<kIsFull>(o.potential)};
+    return {total<kIsFull>(o.mass), total<kIsFull>(o.momentum), total<kIsFull>(o.H_PntC_B),
+            total<kIsFull>(o.kinetic)};
   }
 
   Vehicle<H, S>& vehicle_;

@@ -221,14 +221,29 @@ class Limb {
     }
     add_seen_from_hub(own, sum);
   }
-  /// The hub's rotation is in it. @param field  null: what is lost has no potential
-  void add_leaving(const Vec<S>&, const Field<S>* field, Leaving<S>& sum) const {
+  /// Of mass that leaves; the hub's rotation is in it.
+  void add_leaving(const CenterMotion<S>& center, Leaving<S>& sum) const {
     for (const DrainingLink& draining : draining_) {
       const MountMotion<S>& at = motions_[draining.link].at;
-      sum.add(draining.drain.mass_rate(), at);
+      sum.add(draining.drain.mass_rate(), at.dcm_WL, at.omega, at.r_LB - center.r_CB,
+              at.v_LB - center.v_CB());
+    }
+  }
+  void add_leaving_moment(Moment<S>& sum) const {
+    for (const DrainingLink& draining : draining_) {
+      const MountMotion<S>& at = motions_[draining.link].at;
+      const LinkMass<S>& rate = draining.drain.mass_rate();
+      sum += {rate.mass, rate.mass * at.r_LB + at.dcm_WL * rate.moment};
+    }
+  }
+  /// See lifted().
+  void add_lifted(const Field<S>& field, Power<S>& sum) const {
+    for (const DrainingLink& draining : draining_) {
+      const MountMotion<S>& at = motions_[draining.link].at;
       const std::vector<ElementNow<S>>& elements = links_[draining.link].elements;
-      for (std::size_t e = 0; field != nullptr && e < elements.size(); ++e)
-        sum.lift(draining.drain.element_rate(e), at.r_LB + at.dcm_WL * elements[e].r_EL, *field);
+      for (std::size_t e = 0; e < elements.size(); ++e)
+        sum.power +=
+            lifted(draining.drain.element_rate(e), at.r_LB + at.dcm_WL * elements[e].r_EL, field);
     }
   }
 

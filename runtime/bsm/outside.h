@@ -1,9 +1,10 @@
 // What the books of one evaluation are made of, and what they come to. The kernel sums it up limb
-// by limb from what the evaluation left in memory. Everything is about the hub's origin B, whose
-// velocity is taken as zero until the end: on orbit it would cost four digits. Limbs say how they
-// move as seen from the hub's axes, for the hub's own rotation omega is soon added to any sum: with
-// v = omega x r + w,
+// by limb from what the evaluation left in memory. The velocity of the hub's origin B is taken as
+// zero until the end: on orbit it would cost four digits. All but what leaves is about B, and limbs
+// say how they move as seen from the hub's axes, for the hub's own rotation omega is soon added to
+// any sum: with v = omega x r + w,
 //   sum m v = omega x sum m r + sum m w,  sum F.v = omega . sum r x F + sum F.w
+// What leaves is about the centre of mass C, where its sums are those that the books ask for.
 // Tested by tests/runtime/books_test.cpp (against sums over elements in plain doubles).
 #pragma once
 
@@ -12,11 +13,23 @@
 
 namespace twincraft::bsm::TWINCRAFT_KERNEL {
 
+/// A sum of power alone [W], or of energy.
+template <class S>
+struct Power {
+  S power{};
+
+  Power& operator+=(const Power& o) {
+    power += o.power;
+    return *this;
+  }
+};
+
 /// Masses, where they are and how they move.
 template <class S>
 struct MassMotion {
   Moment<S> moment;  // from B
   Vec<S> momentum;   // [N s]
+  S inner_power{};   // [W]
 
   void add_at(const S& mass, const Vec<S>& r, const Vec<S>& v) {
     moment += {mass, mass * r};
@@ -30,8 +43,18 @@ struct MassMotion {
   MassMotion& operator+=(const MassMotion& o) {
     moment += o.moment;
     momentum += o.momentum;
+    inner_power += o.inner_power;
     return *this;
   }
+};
+
+/// How the centre of mass C moves with the hub.
+template <class S>
+struct CenterMotion {
+  Vec<S> omega;       // of the hub
+  Vec<S> r_CB, w_CB;  // [m], [m/s] from B; seen from the hub's axes
+
+  Vec<S> v_CB() const { return plus_cross(w_CB, omega, r_CB); }
 };
 
 /// What acts on links from outside.
@@ -72,115 +95,67 @@ struct Outside {
   }
 };
 
-/// What leaves with the mass that leaves, at fixed motion; the hub's rotation is in it.
+/// What leaves with the mass that leaves, at fixed motion, about C and as if that did not move.
+/// What C itself does drops out of the books: neither sum of m (r - r_C) nor of m (v - v_C) is
+/// anything.
 template <class S>
 struct Leaving {
-  Moment<S> moment;  // [kg/s], [kg m/s]
-  Vec<S> momentum;   // [N]
-  Vec<S> H_PntB_B;   // [N m]
-  S kinetic{};       // [W]
-  S potential{};     // [W] beyond that of the same mass at B
+  S mass{};         // [kg/s]
+  Vec<S> momentum;  // [N]
+  Vec<S> H_PntC_B;  // [N m]
+  S kinetic{};      // [W]
 
-  void add(const LinkMass<S>& rate, const MountMotion<S>& link) {
-    const Vec<S>&r = link.r_LB, &v = link.v_LB;
-    const Vec<S> first = link.dcm_WL * rate.moment;
-    const Vec<S> turning = cross(link.omega, first);
-    add_point(rate.mass, r, v);
-    add_turning(first, link.dcm_WL * (rate.J * transposed(link.dcm_WL, link.omega)), link.omega);
-    H_PntB_B += cross(r, turning) + cross(first, v);
-    kinetic += dot(v, turning);
+  /// @param dcm_WL, omega  of a link  @param r, v  of its origin from C
+  void add(const LinkMass<S>& rate, const Mat<S>& dcm_WL, const Vec<S>& omega, const Vec<S>& r,
+           const Vec<S>& v) {
+    add(rate.mass, dcm_WL * rate.moment, dcm_WL * (rate.J * transposed(dcm_WL, omega)), omega, r,
+        v);
   }
-  /// On a link whose origin is B, in its own axes.
-  void add_on_hub(const LinkMass<S>& rate, const Vec<S>& omega) {
-    moment.mass += rate.mass;
-    add_turning(rate.moment, rate.J * omega, omega);
+  /// Of a link in hub axes.
+  void add(const LinkMass<S>& rate, const Vec<S>& omega, const Vec<S>& r, const Vec<S>& v) {
+    add(rate.mass, rate.moment, rate.J * omega, omega, r, v);
   }
+  /// Of a particle.
   void add_point(const S& mass_rate, const Vec<S>& r, const Vec<S>& v) {
     const Vec<S> mv = mass_rate * v;
-    moment += {mass_rate, mass_rate * r};
+    mass += mass_rate;
     momentum += mv;
-    H_PntB_B += cross(r, mv);
+    H_PntC_B = plus_cross(H_PntC_B, r, mv);
     kinetic += S(0.5) * dot(mv, v);
   }
-  void lift(const S& mass_rate, const Vec<S>& r, const Field<S>& field) {
-    const Vec<S> there = field.r + r;
-    potential += mass_rate * field.mu * (root(field.inverse_r2) - S(1.0) / root(dot(there, there)));
-  }
   Leaving& operator+=(const Leaving& o) {
-    moment += o.moment;
+    mass += o.mass;
     momentum += o.momentum;
-    H_PntB_B += o.H_PntB_B;
+    H_PntC_B += o.H_PntC_B;
     kinetic += o.kinetic;
-    potential += o.potential;
     return *this;
   }
 
  private:
-  void add_turning(const Vec<S>& first, const Vec<S>& spin, const Vec<S>& omega) {
-    moment.moment += first;
-    momentum += cross(omega, first);
-    H_PntB_B += spin;
-    kinetic += S(0.5) * dot(omega, spin);
+  /// @param first, spin  about the link's origin, hub axes
+  void add(const S& mass_rate, const Vec<S>& first, const Vec<S>& spin, const Vec<S>& omega,
+           const Vec<S>& r, const Vec<S>& v) {
+    const Vec<S> turning = cross(omega, first), mv = mass_rate * v;
+    const Vec<S> all = mv + turning;
+    mass += mass_rate;
+    momentum += all;
+    H_PntC_B += plus_cross(plus_cross(spin, r, all), first, v);
+    kinetic += dot(S(0.5) * mv + turning, v) + S(0.5) * dot(omega, spin);
   }
 };
+
+/// What mass that leaves at r takes along of potential, beyond that of the same mass at B [W].
+template <class S>
+S lifted(const S& mass_rate, const Vec<S>& r, const Field<S>& field) {
+  const Vec<S> there = field.r + r;
+  return mass_rate * field.mu * (root(field.inverse_r2) - S(1.0) / root(dot(there, there)));
+}
 
 /// BookRates in the numbers of the hub.
 template <class H>
 struct BooksOf {
   H power{}, own_power{};
   Vec<H> force_N, torque_PntC_N;
-};
-
-/// What changes the books of a vehicle beside its own efforts, summed in hub axes and turned into N
-/// at the end. Sums about C follow from those about B.
-template <class H>
-struct Tally {
-  Vec<H> omega, r_CB, v_CB;
-  Pull<H> all{};     // and momenta that leave
-  Vec<H> driving{};  // [N] of it what no potential covers
-  H power{};         // [W] of all, and of leaving mass, with B at rest
-  H lost_mass{};     // [kg/s]
-
-  void add_loads(const Outside<H>& loads, BooksOf<H>& books) {
-    books.power += add(loads);
-    driving += loads.pull.force;
-  }
-  /// @param gravity  differences from that at B
-  void add_gravity(const Outside<H>& gravity, const Mat<H>& dcm_NB, BooksOf<H>& books) {
-    add(gravity);
-    books.force_N += dcm_NB * gravity.pull.force;
-    books.power += gravity.turn_power;
-  }
-  /// What C itself does drops out of H: neither sum of m (r - r_C) nor of m (v - v_C) is anything.
-  void add_leaving(const Leaving<H>& leaving, BooksOf<H>& books) {
-    const Moment<H>& lost = leaving.moment;
-    all.force += leaving.momentum;
-    all.torque += leaving.H_PntB_B - cross(lost.moment - lost.mass * r_CB, v_CB);
-    driving += leaving.momentum;
-    power += leaving.kinetic + (H(0.5) * lost.mass) * dot(v_CB, v_CB);
-    lost_mass = lost.mass;
-    books.power += leaving.kinetic + leaving.potential;
-  }
-
-  /// What B's own velocity makes of loads and leaving mass.
-  void book_driving(const Mat<H>& dcm_NB, const Vec<H>& v_BN_N, BooksOf<H>& books) const {
-    const Vec<H> driving_N = dcm_NB * driving, lost_N = lost_mass * v_BN_N;
-    books.power += dot(driving_N + H(0.5) * lost_N, v_BN_N);
-    books.force_N += driving_N + lost_N;
-  }
-  void book_own(const Mat<H>& dcm_NB, BooksOf<H>& books) const {
-    books.own_power += power - dot(all.force, v_CB);
-    books.torque_PntC_N = dcm_NB * (all.torque - cross(r_CB, all.force));
-  }
-
- private:
-  /// @return its power
-  H add(const Outside<H>& outside) {
-    const H works = outside.power + dot(omega, outside.pull.torque);
-    all.add(outside.pull);
-    power += works;
-    return works;
-  }
 };
 
 }  // namespace twincraft::bsm::TWINCRAFT_KERNEL

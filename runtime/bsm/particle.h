@@ -28,11 +28,17 @@ class Particle {
   void add_gravity(const Field<S>& field, Outside<S>& sum) const {
     sum.add_at(mass_ * field.difference(r_), r_, w_);
   }
-  void add_leaving(const Vec<S>& omega, const Field<S>* field, Leaving<S>& sum) const {
+  void add_leaving(const CenterMotion<S>& center, Leaving<S>& sum) const {
     if (!draining_.drains()) return;
+    const Vec<S> r = r_ - center.r_CB;
+    sum.add_point(draining_.mass_rate().mass, r, plus_cross(w_ - center.w_CB, center.omega, r));
+  }
+  void add_leaving_moment(Moment<S>& sum) const {
     const S& rate = draining_.mass_rate().mass;
-    sum.add_point(rate, r_, plus_cross(w_, omega, r_));
-    if (field != nullptr) sum.lift(rate, r_, *field);
+    sum += {rate, rate * r_};
+  }
+  void add_lifted(const Field<S>& field, Power<S>& sum) const {
+    if (draining_.drains()) sum.power += lifted(draining_.mass_rate().mass, r_, field);
   }
 
  protected:
