@@ -18,11 +18,11 @@ class Bookkeeper {
     BooksOf<H> books;
     if (falls() || acts() || vehicle_.tanks_.flow()) {
       const MassMotion<H> mass = motion();
-      books.power = books.own_power = rotor_power() + mass.inner_power;
+      books.power = books.own_power = with_rotors(mass.inner_power);
       if (falls()) books.force_N = mass.moment.mass * fall();
       if (acts() || vehicle_.tanks_.flow()) book_changes(mass, books);
     } else {
-      books.power = books.own_power = rotor_power() + inner_power();
+      books.power = books.own_power = with_rotors(inner_power());
     }
     return books;
   }
@@ -34,8 +34,7 @@ class Bookkeeper {
   }
   bool acts() const { return loads_act() || vehicle_.has_elements_; }
 
-  H rotor_power() const {
-    H power(0.0);
+  H with_rotors(H power) const {
     for (const RotorOn<H, H>& rotor : vehicle_.rotors_) power += rotor.power(state_);
     return power;
   }
@@ -86,18 +85,19 @@ class Bookkeeper {
     }
     if (vehicle_.tanks_.flow()) {
       const Leaving<H> lost = leaving(center);
-      const Vec<H> half = (H(0.5) * lost.mass) * v_CB;
+      const Vec<H> momentum = lost.momentum + lost.mass * v_CB;
       books.own_power += lost.kinetic;
-      books.power += lost.kinetic + dot(lost.momentum + half, v_CB) + lost_potential(center);
+      books.power += lost.kinetic + H(0.5) * dot(lost.momentum + momentum, v_CB);
+      if (falls()) books.power += lost_potential(center);
       torque_PntC_B += lost.H_PntC_B;
-      driving += lost.momentum + half + half;
+      driving += momentum;
       lost_mass = lost.mass;
     }
     if (loads_act() || vehicle_.tanks_.flow()) {  // what B's own velocity makes of them
       const Vec<H> v_BN_N = vehicle_.vector(state_, 3);
-      const Vec<H> driving_N = dcm_NB * driving, half_N = (H(0.5) * lost_mass) * v_BN_N;
-      books.power += dot(driving_N + half_N, v_BN_N);
-      books.force_N += driving_N + half_N + half_N;
+      const Vec<H> driving_N = dcm_NB * driving, all_N = driving_N + lost_mass * v_BN_N;
+      books.power += H(0.5) * dot(driving_N + all_N, v_BN_N);
+      books.force_N += all_N;
     }
     books.torque_PntC_N = dcm_NB * torque_PntC_B;
   }
@@ -157,7 +157,6 @@ class Bookkeeper {
   }
   /// Beyond that of the same mass where B is and does not move.
   H lost_potential(const CenterMotion<H>& center) const {
-    if (!falls()) return H(0.0);
     const Field<H>& field = vehicle_.field_;
     const Moment<H> lost = leaving_moment();
     H power = -(lost.mass * field.mu * root(field.inverse_r2));

@@ -135,12 +135,12 @@ struct Leaving {
   /// @param first, spin  about the link's origin, hub axes
   void add(const S& mass_rate, const Vec<S>& first, const Vec<S>& spin, const Vec<S>& omega,
            const Vec<S>& r, const Vec<S>& v) {
-    const Vec<S> turning = cross(omega, first), mv = mass_rate * v;
-    const Vec<S> all = mv + turning;
+    const Vec<S> own_momentum = plus_cross(mass_rate * v, omega, first);
+    const Vec<S> H_PntL_B = plus_cross(spin, first, v);  // about the link's origin
     mass += mass_rate;
-    momentum += all;
-    H_PntC_B += plus_cross(plus_cross(spin, r, all), first, v);
-    kinetic += dot(S(0.5) * mv + turning, v) + S(0.5) * dot(omega, spin);
+    momentum += own_momentum;
+    H_PntC_B += plus_cross(H_PntL_B, r, own_momentum);
+    kinetic += S(0.5) * (dot(own_momentum, v) + dot(H_PntL_B, omega));
   }
 };
 
