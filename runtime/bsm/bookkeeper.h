@@ -56,53 +56,48 @@ class Bookkeeper {
     return all;
   }
 
-  void book_changes(const MassMotion<H>& mass, BooksOf<H>& books) const {
+  void book_changes(const MassMotion<H>& mass, BooksOf<H>& books) {
     const H inverse_mass = H(1.0) / mass.moment.mass;
     const CenterMotion<H> center{omega_, inverse_mass * mass.moment.moment,
                                  inverse_mass * mass.momentum};
-    const Vec<H> v_CB = center.v_CB();
-    Mat<H> attitude_alone;
-    if (vehicle_.turns_alone_) attitude_alone = attitude();
-    const Mat<H>& dcm_NB = vehicle_.turns_alone_ ? attitude_alone : vehicle_.dcm_NB_;
-
-    Outside<H> outside{};
-    Vec<H> torque_PntC_B{}, driving{};  // driving: [N] what no potential covers
-    H lost_mass{};
-    if (loads_act()) {
-      outside = loads(center.r_CB);
-      driving = outside.pull.force;
-      books.power += power(outside);
-    }
+    if (vehicle_.turns_alone_) vehicle_.dcm_NB_ = attitude();
+    const Mat<H>& dcm_NB = vehicle_.dcm_NB_;
+    Own<H> own;
+    if (loads_act() || vehicle_.tanks_.flow()) own = book_driving(center, books);
     if (vehicle_.has_elements_) {
       const Outside<H> pulls = gravity();  // differences from that at B
-      outside += pulls;
       books.force_N += dcm_NB * pulls.pull.force;
       books.power += pulls.turn_power;
+      own.add(pulls, center);
     }
-    if (acts()) {
-      books.own_power += power(outside) - dot(outside.pull.force, v_CB);
-      torque_PntC_B = outside.pull.torque - cross(center.r_CB, outside.pull.force);
+    books.own_power += own.power;
+    books.torque_PntC_N = dcm_NB * own.torque_PntC_B;
+  }
+  /// Loads and leaving mass: no potential covers their forces.
+  Own<H> book_driving(const CenterMotion<H>& center, BooksOf<H>& books) const {
+    const Vec<H> v_CB = center.v_CB(), v_BN_N = vehicle_.vector(state_, 3);
+    Own<H> own;
+    Vec<H> force_B{};
+    H lost_mass{};
+    if (loads_act()) {
+      const Outside<H> outside = loads(center.r_CB);
+      own.set(outside, center);
+      force_B = outside.pull.force;
     }
     if (vehicle_.tanks_.flow()) {
       const Leaving<H> lost = leaving(center);
-      const Vec<H> momentum = lost.momentum + lost.mass * v_CB;
-      books.own_power += lost.kinetic;
-      books.power += lost.kinetic + H(0.5) * dot(lost.momentum + momentum, v_CB);
-      if (falls()) books.power += lost_potential(center);
-      torque_PntC_B += lost.H_PntC_B;
-      driving += momentum;
+      own.power += lost.kinetic;
+      own.torque_PntC_B += lost.H_PntC_B;
+      force_B += lost.momentum + lost.mass * v_CB;
       lost_mass = lost.mass;
+      if (falls()) books.power += lost_potential(center);
     }
-    if (loads_act() || vehicle_.tanks_.flow()) {  // what B's own velocity makes of them
-      const Vec<H> v_BN_N = vehicle_.vector(state_, 3);
-      const Vec<H> driving_N = dcm_NB * driving, all_N = driving_N + lost_mass * v_BN_N;
-      books.power += H(0.5) * dot(driving_N + all_N, v_BN_N);
-      books.force_N += all_N;
-    }
-    books.torque_PntC_N = dcm_NB * torque_PntC_B;
-  }
-  H power(const Outside<H>& outside) const {
-    return outside.power + dot(omega_, outside.pull.torque);
+    // What C does from B, and then B itself. Of mass that leaves, force_B has what C makes of it.
+    const Vec<H> force_N = vehicle_.dcm_NB_ * force_B, all_N = force_N + lost_mass * v_BN_N;
+    books.power += own.power + dot(force_B - (H(0.5) * lost_mass) * v_CB, v_CB) +
+                   H(0.5) * dot(force_N + all_N, v_BN_N);
+    books.force_N += all_N;
+    return own;
   }
   // What a vehicle that turns alone does not leave behind.
   Vec<H> fall() const {

@@ -95,6 +95,25 @@ struct Outside {
   }
 };
 
+/// What changes the energy and the angular momentum about C, as if that did not move.
+template <class H>
+struct Own {
+  H power{};             // [W]
+  Vec<H> torque_PntC_B;  // [N m]
+
+  void set(const Outside<H>& outside, const CenterMotion<H>& center) {
+    const Vec<H>& force = outside.pull.force;
+    torque_PntC_B = outside.pull.torque - cross(center.r_CB, force);
+    power = outside.power - dot(force, center.w_CB) + dot(center.omega, torque_PntC_B);
+  }
+  void add(const Outside<H>& outside, const CenterMotion<H>& center) {
+    Own more;
+    more.set(outside, center);
+    power += more.power;
+    torque_PntC_B += more.torque_PntC_B;
+  }
+};
+
 /// What leaves with the mass that leaves, at fixed motion, about C and as if that did not move.
 /// What C itself does drops out of the books: neither sum of m (r - r_C) nor of m (v - v_C) is
 /// anything.
