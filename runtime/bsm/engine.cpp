@@ -71,7 +71,7 @@ class BsmEngine final : public Engine {
   void finish_step(std::span<double> state) override { kernel_->finish_step(state.data()); }
 
   void observe(double time, std::span<const double> state, Observation& seen) override {
-    assign(unpack(state, layout()), seen);
+    unpack(state, layout(), seen);
     seen.time = time;
     observer_->observe(state.data(), propellant_.shares(time), seen);
   }
@@ -79,7 +79,8 @@ class BsmEngine final : public Engine {
   Eigen::MatrixXd mass_matrix(std::span<const double> state) override {
     Tree tree = machine_->plan.tree;
     set_shares(tree, propellant_.shares(held_.inputs.since));
-    const UnpackedState x = unpack(state, layout());
+    VehicleState x;
+    unpack(state, layout(), x);
     return dense_mass_matrix(tree, motion_of(tree, x.joint_position, x.joint_rate, x.omega_BN_B),
                              x.q_BN.toRotationMatrix());
   }

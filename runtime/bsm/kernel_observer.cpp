@@ -28,6 +28,7 @@ struct Link {
   const Motion* parent = nullptr;
   Axes axes;  // that turn with the parent
   bool slides = false;
+  bool is_off = false;    // the parent's origin; of hinges alone
   std::size_t hinge = 0;  // which one of all
   Mat<double> dcm;        // at zero; the third column is that of the joint
   Vector r_HP;            // [m] joint from the parent's origin
@@ -124,6 +125,7 @@ class PairObserver final : public Observer {
     link.slides = from.kind == JointKind::kSlide;
     link.dcm = dcm_AP * mat(from.dcm_PK0);
     link.r_HP = dcm_AP * vec(from.r_HP_P);
+    link.is_off = !from.r_HP_P.isZero(0.0);
     link.stiffness = from.stiffness;
     link.rest = from.rest;
     if (!link.slides) {
@@ -193,20 +195,24 @@ class PairObserver final : public Observer {
 
   void turn(const Link& link, double q_dot, Motion& to) const {
     if (link.axes.turn)
-      turn(link, link.axes.to_hub(link.r_HP), link.axes.of->dcm_WL * link.dcm, q_dot, to);
+      turn(link, link.axes.of->dcm_WL * link.dcm, q_dot, to);
     else
-      turn(link, link.r_HP, link.dcm, q_dot, to);
+      turn(link, link.dcm, q_dot, to);
+    to.r_LB = link.parent->r_LB;
+    to.v_LB = link.parent->v_LB;
+    if (!link.is_off) return;
+    const Vector r_HP = link.axes.turn ? link.axes.to_hub(link.r_HP) : link.r_HP;
+    to.r_LB += r_HP;
+    to.v_LB = plus_cross(to.v_LB, link.axes.of->omega, r_HP);
   }
-  void turn(const Link& link, const Vector& r_HP, const Mat<double>& at_zero, double q_dot,
-            Motion& to) const {
+  /// @param at_zero  its axes at angle zero, in hub axes
+  void turn(const Link& link, const Mat<double>& at_zero, double q_dot, Motion& to) const {
     const double sine = sines_[link.hinge], cosine = cosines_[link.hinge];
     const Vector& omega = link.axes.of->omega;
     to.dcm_WL.x = cosine * at_zero.x + sine * at_zero.y;
     to.dcm_WL.y = cosine * at_zero.y - sine * at_zero.x;
     to.dcm_WL.z = at_zero.z;
     to.omega = omega + q_dot * at_zero.z;
-    to.r_LB = link.parent->r_LB + r_HP;
-    to.v_LB = plus_cross(link.parent->v_LB, omega, r_HP);
   }
 
   void find_center(const double* shares) {

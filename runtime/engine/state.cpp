@@ -9,7 +9,10 @@ void put(const std::vector<double>& values, int at, Eigen::VectorXd& state) {
   for (std::size_t i = 0; i < values.size(); ++i) state[at + static_cast<int>(i)] = values[i];
 }
 
-Vector3d three(std::span<const double> values, int at) { return Vector3d::Map(values.data() + at); }
+void take(const double* from, int count, std::vector<double>& to) {
+  to.resize(static_cast<std::size_t>(count));
+  for (double& value : to) value = *from++;
+}
 
 }  // namespace
 
@@ -29,36 +32,22 @@ Eigen::VectorXd pack(const VehicleState& state, const StateLayout& layout) {
   return packed;
 }
 
-UnpackedState unpack(std::span<const double> state, const StateLayout& layout) {
-  const auto block = [&state](int at, int size) {
-    return state.subspan(static_cast<std::size_t>(at), static_cast<std::size_t>(size));
-  };
-  UnpackedState unpacked{three(state, StateLayout::position()),
-                         three(state, StateLayout::velocity()),
-                         Vector3d::Zero(),
-                         Quaterniond::Identity(),
-                         block(layout.joint(), layout.joints),
-                         block(layout.joint_rate(), layout.joints),
-                         block(layout.wheel(), layout.wheels)};
-  if (layout.translation) return unpacked;
-  const double* attitude = state.data() + StateLayout::attitude();
-  unpacked.q_BN =
-      layout.chart == AttitudeChart::kMrp
-          ? quaternion_from(Vector3d::Map(attitude))
-          : Quaterniond(attitude[0], attitude[1], attitude[2], attitude[3]).normalized();
-  unpacked.omega_BN_B = three(state, layout.rate());
-  return unpacked;
-}
-
-void assign(const UnpackedState& from, VehicleState& to) {
-  to.r_BN_N = from.r_BN_N;
-  to.v_BN_N = from.v_BN_N;
-  to.q_BN = from.q_BN;
+void unpack(std::span<const double> state, const StateLayout& layout, VehicleState& to) {
+  const double* from = state.data();
+  to.r_BN_N = Vector3d::Map(from + StateLayout::position());
+  to.v_BN_N = Vector3d::Map(from + StateLayout::velocity());
+  take(from + layout.joint(), layout.joints, to.joint_position);
+  take(from + layout.joint_rate(), layout.joints, to.joint_rate);
+  take(from + layout.wheel(), layout.wheels, to.wheel_rate);
+  to.q_BN = Quaterniond::Identity();
+  to.omega_BN_B = Vector3d::Zero();
+  if (layout.translation) return;
+  const double* attitude = from + StateLayout::attitude();
+  to.q_BN = layout.chart == AttitudeChart::kMrp
+                ? quaternion_from(Vector3d::Map(attitude))
+                : Quaterniond(attitude[0], attitude[1], attitude[2], attitude[3]).normalized();
   if (to.q_BN.w() < 0.0) to.q_BN.coeffs() = -to.q_BN.coeffs();
-  to.omega_BN_B = from.omega_BN_B;
-  to.joint_position.assign(from.joint_position.begin(), from.joint_position.end());
-  to.joint_rate.assign(from.joint_rate.begin(), from.joint_rate.end());
-  to.wheel_rate.assign(from.wheel_rate.begin(), from.wheel_rate.end());
+  to.omega_BN_B = Vector3d::Map(from + layout.rate());
 }
 
 }  // namespace twincraft

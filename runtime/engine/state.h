@@ -39,15 +39,8 @@ struct StateLayout {
 /// `state` as a state vector.
 Eigen::VectorXd pack(const VehicleState& state, const StateLayout& layout);
 
-/// What a state vector says, joints and wheels in place. A quaternion is read as if normalised.
-struct UnpackedState {
-  Vector3d r_BN_N, v_BN_N, omega_BN_B;
-  Quaterniond q_BN;
-  std::span<const double> joint_position, joint_rate, wheel_rate;
-};
-UnpackedState unpack(std::span<const double> state, const StateLayout& layout);
-
-/// Into a state with a memory of its own; the scalar of q_BN is not negative there.
-void assign(const UnpackedState& from, VehicleState& to);
+/// All that a state vector says; a point mass is at rest about N. A quaternion is read as if
+/// normalised; the scalar of q_BN is not negative.
+void unpack(std::span<const double> state, const StateLayout& layout, VehicleState& to);
 
 }  // namespace twincraft

@@ -60,7 +60,7 @@ void PointMassEngine::book(std::span<const double> state, BookRates& books) {
 }
 
 void PointMassEngine::observe(double time, std::span<const double> state, Observation& seen) {
-  assign(unpack(state, layout_), seen);
+  unpack(state, layout_, seen);
   seen.time = time;
   seen.r_CN_N = seen.r_BN_N + r_CB_N_;
   seen.v_CN_N = seen.v_BN_N;

@@ -273,7 +273,7 @@ void MujocoEngine::observe(double time, std::span<const double> state, Observati
   gather_poses();
   const MotionSums sums =
       sum_motion(*model_, *data_, Input(state.data() + StateLayout::velocity()));
-  assign(unpack(state, layout()), seen);
+  unpack(state, layout(), seen);
   seen.time = time;
   seen.r_CN_N = seen.r_BN_N + sums.r_CB_N;
   seen.v_CN_N = sums.v_CN_N;

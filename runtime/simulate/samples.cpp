@@ -43,9 +43,10 @@ void refuse_absurd(const Observation& seen, const Model& model) {
   const auto refuse = [](const std::string& name, double value, std::string_view unit) {
     throw NumericalFailure(fmt::format("`{}` is absurd: {:.3g} {}", name, value, unit));
   };
-  if (!(seen.omega_BN_B.norm() < kAbsurdRate))
+  if (!(seen.omega_BN_B.squaredNorm() < kAbsurdRate * kAbsurdRate))
     refuse("omega_BN_B", seen.omega_BN_B.norm(), "rad/s");
-  if (!(seen.v_BN_N.norm() < kAbsurdSpeed)) refuse("v_BN_N", seen.v_BN_N.norm(), "m/s");
+  if (!(seen.v_BN_N.squaredNorm() < kAbsurdSpeed * kAbsurdSpeed))
+    refuse("v_BN_N", seen.v_BN_N.norm(), "m/s");
   if (is_moderate(seen)) return;
   for (const Coordinate& coordinate : model.coordinates) {
     const CoordinateQuantity& quantity = coordinate.quantity();

@@ -29,15 +29,16 @@ void add_torque(const Vector3d& torque_N, SizedRates& rates) {
 
 }  // namespace
 
-struct PlainBooks::State : UnpackedState {
+struct PlainBooks::State : VehicleState {
   Matrix3d dcm_NB;
   Vector3d r_BN_B, v_BN_B;
 
-  explicit State(const UnpackedState& x)
-      : UnpackedState(x),
-        dcm_NB(x.q_BN.toRotationMatrix()),
-        r_BN_B(dcm_NB.transpose() * x.r_BN_N),
-        v_BN_B(dcm_NB.transpose() * x.v_BN_N) {}
+  State(std::span<const double> state, const StateLayout& layout) {
+    unpack(state, layout, *this);
+    dcm_NB = q_BN.toRotationMatrix();
+    r_BN_B = dcm_NB.transpose() * r_BN_N;
+    v_BN_B = dcm_NB.transpose() * v_BN_N;
+  }
 };
 
 PlainBooks::PlainBooks(const Model& model)
@@ -60,7 +61,7 @@ void PlainBooks::hold(const Inputs& inputs) {
 }
 
 SizedRates PlainBooks::rates(double time, std::span<const double> state) {
-  const State x(unpack(state, layout_));
+  const State x(state, layout_);
   move_to(time, x);
   const Center center = this->center();
   SizedRates rates;

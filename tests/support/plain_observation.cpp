@@ -42,12 +42,11 @@ SizedObservation PlainObservation::observe(double time, std::span<const double> 
   const std::span<const double> shares = propellant_.shares(time);
   elements_.set_shares(shares);
   forces_.set_shares(shares);
-  const UnpackedState x = unpack(state, layout_);
-  const Matrix3d dcm_NB = x.q_BN.toRotationMatrix();
-  bsm::move_links(tree_, x.joint_position, x.joint_rate, x.omega_BN_B, motion_);
-
   SizedObservation seen;
-  assign(x, seen);
+  unpack(state, layout_, seen);
+  const Matrix3d dcm_NB = seen.q_BN.toRotationMatrix();
+  bsm::move_links(tree_, seen.joint_position, seen.joint_rate, seen.omega_BN_B, motion_);
+
   seen.time = time;
   add_elements(seen);
   add_rotors(seen);
