@@ -2,7 +2,7 @@
 #include "runtime/api/python/faults.h"
 
 #include <nanobind/stl/string.h>
-#include <twincraft/simulation.h>
+#include <twincraft/error.h>
 
 namespace twincraft::python {
 namespace {
