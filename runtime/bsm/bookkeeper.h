@@ -57,9 +57,8 @@ class Bookkeeper {
   }
 
   void book_changes(const MassMotion<H>& mass, BooksOf<H>& books) {
-    const H inverse_mass = H(1.0) / mass.moment.mass;
-    const CenterMotion<H> center{omega_, inverse_mass * mass.moment.moment,
-                                 inverse_mass * mass.momentum};
+    const H share = H(-1.0) / mass.moment.mass;
+    const CenterMotion<H> center{omega_, share * mass.moment.moment, share * mass.momentum};
     if (vehicle_.turns_alone_) vehicle_.dcm_NB_ = attitude();
     const Mat<H>& dcm_NB = vehicle_.dcm_NB_;
     Own<H> own;
@@ -75,12 +74,12 @@ class Bookkeeper {
   }
   /// Loads and leaving mass: no potential covers their forces.
   Own<H> book_driving(const CenterMotion<H>& center, BooksOf<H>& books) const {
-    const Vec<H> v_CB = center.v_CB(), v_BN_N = vehicle_.vector(state_, 3);
+    const Vec<H> v_BC = center.v_BC(), v_BN_N = vehicle_.vector(state_, 3);
     Own<H> own;
     Vec<H> force_B{};
     H lost_mass{};
     if (loads_act()) {
-      const Outside<H> outside = loads(center.r_CB);
+      const Outside<H> outside = loads(center);
       own.set(outside, center);
       force_B = outside.pull.force;
     }
@@ -88,13 +87,13 @@ class Bookkeeper {
       const Leaving<H> lost = leaving(center);
       own.power += lost.kinetic;
       own.torque_PntC_B += lost.H_PntC_B;
-      force_B += lost.momentum + lost.mass * v_CB;
+      force_B += lost.momentum - lost.mass * v_BC;
       lost_mass = lost.mass;
       if (falls()) books.power += lost_potential(center);
     }
     // What C does from B, and then B itself. Of mass that leaves, force_B has what C makes of it.
     const Vec<H> force_N = vehicle_.dcm_NB_ * force_B, all_N = force_N + lost_mass * v_BN_N;
-    books.power += own.power + dot(force_B - (H(0.5) * lost_mass) * v_CB, v_CB) +
+    books.power += own.power - dot(force_B + (H(0.5) * lost_mass) * v_BC, v_BC) +
                    H(0.5) * dot(force_N + all_N, v_BN_N);
     books.force_N += all_N;
     return own;
@@ -111,15 +110,16 @@ class Bookkeeper {
                : Quaternion<H>(state_, Layout::kAttitude).dcm_NB();
   }
 
-  Outside<H> loads(const Vec<H>& r_CB) const {
+  Outside<H> loads(const CenterMotion<H>& center) const {
     Outside<H> outside{vehicle_.held_};
     if (vehicle_.push_.acts()) outside.pull.add(vehicle_.pushed_);
+    const Vec<H> r_CB = -center.r_BC;
     if (vehicle_.acts_at_center_) outside.pull.add(vehicle_.held_at_center_, r_CB);
     if (!vehicle_.acts_on_limbs_ && !vehicle_.push_.acts()) return outside;
     const Vec<S> r_CB_S = vehicle_.spread(r_CB);
-    const Vec<S>* center = vehicle_.acts_at_center_ ? &r_CB_S : nullptr;
+    const Vec<S>* at = vehicle_.acts_at_center_ ? &r_CB_S : nullptr;
     outside +=
-        of_limbs<Outside>([&](const auto& limb, Outside<S>& sum) { limb.add_loads(center, sum); });
+        of_limbs<Outside>([&](const auto& limb, Outside<S>& sum) { limb.add_loads(at, sum); });
     return outside;
   }
 
@@ -142,12 +142,12 @@ class Bookkeeper {
   }
 
   Leaving<H> leaving(const CenterMotion<H>& center) const {
-    const CenterMotion<S> center_S{vehicle_.spread(omega_), vehicle_.spread(center.r_CB),
-                                   vehicle_.spread(center.w_CB)};
+    const CenterMotion<S> center_S{vehicle_.spread(omega_), vehicle_.spread(center.r_BC),
+                                   vehicle_.spread(center.w_BC)};
     Leaving<H> sum = of_limbs<Leaving>(
         [&](const auto& limb, Leaving<S>& of) { limb.add_leaving(center_S, of); });
     if (vehicle_.draining_.drains())
-      sum.add(vehicle_.draining_.mass_rate(), omega_, -center.r_CB, -center.v_CB());
+      sum.add(vehicle_.draining_.mass_rate(), omega_, center.r_BC, center.v_BC());
     return sum;
   }
   /// Beyond that of the same mass where B is and does not move.
@@ -156,7 +156,7 @@ class Bookkeeper {
     const Moment<H> lost = leaving_moment();
     H power = -(lost.mass * field.mu * root(field.inverse_r2));
     if (vehicle_.plan_.law == GravityLaw::kSystemCom)  // the field is that at C
-      power -= dot(field.at_hub(), lost.moment - lost.mass * center.r_CB);
+      power -= dot(field.at_hub(), lost.moment + lost.mass * center.r_BC);
     if (!vehicle_.has_elements_) return power;
     const Field<S> field_S = vehicle_.spread(field);
     power += of_limbs<Power>([&](const auto& limb, Power<S>& sum) {

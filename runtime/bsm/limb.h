@@ -225,8 +225,8 @@ class Limb {
   void add_leaving(const CenterMotion<S>& center, Leaving<S>& sum) const {
     for (const DrainingLink& draining : draining_) {
       const MountMotion<S>& at = motions_[draining.link].at;
-      sum.add(draining.drain.mass_rate(), at.dcm_WL, at.omega, at.r_LB - center.r_CB,
-              at.v_LB - center.v_CB());
+      sum.add(draining.drain.mass_rate(), at.dcm_WL, at.omega, at.r_LB + center.r_BC,
+              at.v_LB + center.v_BC());
     }
   }
   void add_leaving_moment(Moment<S>& sum) const {

@@ -48,13 +48,13 @@ struct MassMotion {
   }
 };
 
-/// How the centre of mass C moves with the hub.
+/// How B moves about the centre of mass C: what is told from B is told from C once this is added.
 template <class S>
 struct CenterMotion {
   Vec<S> omega;       // of the hub
-  Vec<S> r_CB, w_CB;  // [m], [m/s] from B; seen from the hub's axes
+  Vec<S> r_BC, w_BC;  // [m], [m/s] seen from the hub's axes
 
-  Vec<S> v_CB() const { return plus_cross(w_CB, omega, r_CB); }
+  Vec<S> v_BC() const { return plus_cross(w_BC, omega, r_BC); }
 };
 
 /// What acts on links from outside.
@@ -103,8 +103,8 @@ struct Own {
 
   void set(const Outside<H>& outside, const CenterMotion<H>& center) {
     const Vec<H>& force = outside.pull.force;
-    torque_PntC_B = outside.pull.torque - cross(center.r_CB, force);
-    power = outside.power - dot(force, center.w_CB) + dot(center.omega, torque_PntC_B);
+    torque_PntC_B = plus_cross(outside.pull.torque, center.r_BC, force);
+    power = outside.power + dot(force, center.w_BC) + dot(center.omega, torque_PntC_B);
   }
   void add(const Outside<H>& outside, const CenterMotion<H>& center) {
     Own more;

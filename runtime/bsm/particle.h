@@ -30,8 +30,8 @@ class Particle {
   }
   void add_leaving(const CenterMotion<S>& center, Leaving<S>& sum) const {
     if (!draining_.drains()) return;
-    const Vec<S> r = r_ - center.r_CB;
-    sum.add_point(draining_.mass_rate().mass, r, plus_cross(w_ - center.w_CB, center.omega, r));
+    const Vec<S> r = r_ + center.r_BC;
+    sum.add_point(draining_.mass_rate().mass, r, plus_cross(w_ + center.w_BC, center.omega, r));
   }
   void add_leaving_moment(Moment<S>& sum) const {
     const S& rate = draining_.mass_rate().mass;
