@@ -49,15 +49,20 @@ struct Rotor {
   double spin_inertia = 0.0;  // [kg m^2]
 };
 
-/// How an element moves, with the velocity of B taken as zero.
+/// How an element moves, or two of them, with the velocity of B taken as zero.
+template <class S>
 struct Moving {
-  double mass = 0.0;  // [kg]
-  Vector r_EB, v_E;   // [m], [m/s]
-  Vector spin;        // [kg m^2/s] angular momentum about its own centre
+  S mass{};          // [kg]
+  Vec<S> r_EB, v_E;  // [m], [m/s]
+  Vec<S> spin;       // [kg m^2/s] angular momentum about its own centre
 };
 
 Vec<Pair> side_by_side(const Vector& a, const Vector& b) {
   return {two_lanes<Pair>(a.x, b.x), two_lanes<Pair>(a.y, b.y), two_lanes<Pair>(a.z, b.z)};
+}
+Moving<Pair> side_by_side(const Moving<double>& a, const Moving<double>& b) {
+  return {two_lanes<Pair>(a.mass, b.mass), side_by_side(a.r_EB, b.r_EB), side_by_side(a.v_E, b.v_E),
+          side_by_side(a.spin, b.spin)};
 }
 double sum(const Pair& value) { return sum_of_lanes(value, true); }
 Vector sum(const Vec<Pair>& v) { return {sum(v.x), sum(v.y), sum(v.z)}; }
@@ -93,7 +98,8 @@ class PairObserver final : public Observer {
       for (const MassElement& element : assembly.links.data()[i].elements)
         if (has_mass(element)) add_element(i, element, axes[i], dcm_AL[i]);
     }
-    moving_.resize(elements_.size() + elements_.size() % 2);
+    if (elements_.size() % 2 != 0) elements_.emplace_back().link = hub.of;  // weighs nothing
+    moving_.resize(elements_.size() / 2);
     sines_.resize(2 * hinges_.size());
     cosines_.resize(2 * hinges_.size());
     for (const RotorConstants& rotor : plan.tree.rotors) {
@@ -111,7 +117,7 @@ class PairObserver final : public Observer {
     sum_up();
     add_rotors(state);
     put_sums(state, dcm_NB, seen);
-    seen.potential = seen.springs + gravity(transposed(dcm_NB, vector(state)));
+    seen.potential = seen.springs + gravity(vector(state), dcm_NB);
   }
 
  private:
@@ -216,23 +222,25 @@ class PairObserver final : public Observer {
   }
 
   void find_center(const double* shares) {
-    double mass = 0.0;
-    Vector moment, momentum;
+    Pair mass(0.0);
+    Vec<Pair> moment, momentum;
     spin_energy_ = 0.0;
-    const std::size_t count = elements_.size();
-    for (std::size_t i = 0; i < count; ++i) {
-      Moving& now = moving_[i];
-      move(elements_[i], shares, now);
+    const Element* element = elements_.data();
+    for (Moving<Pair>& now : moving_) {
+      Moving<double> a, b;
+      move(*element++, shares, a);
+      move(*element++, shares, b);
+      now = side_by_side(a, b);
       mass += now.mass;
       moment += now.mass * now.r_EB;
       momentum += now.mass * now.v_E;
     }
-    mass_ = mass;
-    r_CB_ = (1.0 / mass) * moment;
-    v_CB_ = (1.0 / mass) * momentum;
+    mass_ = sum(mass);
+    r_CB_ = (1.0 / mass_) * sum(moment);
+    v_CB_ = (1.0 / mass_) * sum(momentum);
   }
 
-  void move(const Element& element, const double* shares, Moving& to) {
+  void move(const Element& element, const double* shares, Moving<double>& to) {
     const double share = element.tank < 0 ? 1.0 : shares[element.tank];
     to.mass = share * element.mass;
     if (!element.is_off) {
@@ -246,11 +254,11 @@ class PairObserver final : public Observer {
     if (element.has_inertia) spin(element, share, to);
   }
   /// @param r_EL  in hub axes
-  static void put_off(const Element& element, const Vector& r_EL, Moving& to) {
+  static void put_off(const Element& element, const Vector& r_EL, Moving<double>& to) {
     to.r_EB = element.link->r_LB + r_EL;
     to.v_E = plus_cross(element.link->v_LB, element.axes.of->omega, r_EL);
   }
-  void spin(const Element& element, double share, Moving& to) {
+  void spin(const Element& element, double share, Moving<double>& to) {
     const Motion& carrier = *element.axes.of;
     if (element.axes.turn) {
       const Vector omega = transposed(carrier.dcm_WL, carrier.omega);
@@ -265,16 +273,12 @@ class PairObserver final : public Observer {
     const Vec<Pair> r_CB = side_by_side(r_CB_, r_CB_), v_CB = side_by_side(v_CB_, v_CB_);
     Vec<Pair> H;
     Pair kinetic(0.0), H_scale(0.0), momentum_scale(0.0);
-    const std::size_t count = moving_.size();
-    for (std::size_t i = 0; i < count; i += 2) {
-      const Moving &a = moving_[i], &b = moving_[i + 1];
-      const Pair mass = two_lanes<Pair>(a.mass, b.mass);
-      const Vec<Pair> v_E = side_by_side(a.v_E, b.v_E), v_EC = v_E - v_CB, momentum = mass * v_EC;
-      const Vec<Pair> H_E =
-          plus_cross(side_by_side(a.spin, b.spin), side_by_side(a.r_EB, b.r_EB) - r_CB, momentum);
+    for (const Moving<Pair>& now : moving_) {
+      const Vec<Pair> v_EC = now.v_E - v_CB, momentum = now.mass * v_EC;
+      const Vec<Pair> H_E = plus_cross(now.spin, now.r_EB - r_CB, momentum);
       H += H_E;
       H_scale += length(H_E);
-      momentum_scale += mass * length(v_E);
+      momentum_scale += now.mass * length(now.v_E);
       kinetic += dot(momentum, v_EC);
     }
     H_ = sum(H);
@@ -311,15 +315,13 @@ class PairObserver final : public Observer {
   }
 
   /// Its potential [J].
-  double gravity(const Vector& r_BN_B) const {
+  double gravity(const Vector& r_BN_N, const Mat<double>& dcm_NB) const {
     if (law_ == GravityLaw::kNone) return 0.0;
+    const Vector r_BN_B = transposed(dcm_NB, r_BN_N);
     if (law_ == GravityLaw::kSystemCom) return -mu_ * mass_ / length(r_BN_B + r_CB_);
     const Vec<Pair> r_BN = side_by_side(r_BN_B, r_BN_B);
     Pair per_distance(0.0);
-    for (std::size_t i = 0; i < moving_.size(); i += 2) {
-      const Moving &a = moving_[i], &b = moving_[i + 1];
-      per_distance += two_lanes<Pair>(a.mass, b.mass) / length(r_BN + side_by_side(a.r_EB, b.r_EB));
-    }
+    for (const Moving<Pair>& now : moving_) per_distance += now.mass / length(r_BN + now.r_EB);
     return -mu_ * sum(per_distance);
   }
 
@@ -330,13 +332,13 @@ class PairObserver final : public Observer {
   std::vector<Link> links_;                         // [0]: the hub, unused
   std::vector<std::array<std::size_t, 2>> hinges_;  // in pairs: where in q; the last twice if odd
   std::size_t hinge_count_ = 0;
-  std::vector<Element> elements_;
+  std::vector<Element> elements_;  // in pairs
   std::vector<Rotor> rotors_;
 
   // Of the last observation, in hub axes, with the velocity of B taken as zero.
   std::vector<Motion> motions_;          // dcm_WL and omega of hinged links and the hub alone
   std::vector<double> sines_, cosines_;  // of the angles of hinges
-  std::vector<Moving> moving_;  // as elements_, and one without mass where that makes pairs
+  std::vector<Moving<Pair>> moving_;     // elements
   double mass_ = 0.0, spin_energy_ = 0.0, kinetic_ = 0.0, H_scale_ = 0.0, momentum_scale_ = 0.0;
   Vector r_CB_, v_CB_, H_;
 };
