@@ -26,13 +26,13 @@ const StageSums& sums_for(const Ode& ode) {
 
 }  // namespace
 
-WeightedSum RungeKutta::weighted_sum(const Tableau::Row& coefficients) const {
-  WeightedSum sum{.padded_size = static_cast<std::size_t>(padded_size_)};
+WeightedSum RungeKutta::weighted_sum(const Tableau::Row& coefficients, int size) const {
+  WeightedSum sum{.padded_size = static_cast<std::size_t>(whole_lanes(size))};
   std::size_t terms = 0;
   for (std::size_t stage = 0; stage < coefficients.size(); ++stage) {
     if (coefficients[stage] == 0.0) continue;
     sum.coefficient[terms] = coefficients[stage];
-    sum.offset[terms] = stage * sum.padded_size;
+    sum.offset[terms] = stage * static_cast<std::size_t>(padded_size_);
     ++terms;
   }
   if (terms == 0) return sum;  // the first stage, which is never summed
@@ -47,7 +47,7 @@ RungeKutta::RungeKutta(const Tableau& tableau, Ode& ode)
       ode_(ode),
       size_(ode.size()),
       padded_size_(whole_lanes(size_)),
-      solution_sum_(weighted_sum(tableau.b)),
+      solution_sum_(weighted_sum(tableau.b, size_)),
       stages_(Eigen::VectorXd::Zero(tableau.stages * padded_size_)),
       trial_(Eigen::VectorXd::Zero(padded_size_)),
       state_{trial_, trial_},
@@ -55,8 +55,8 @@ RungeKutta::RungeKutta(const Tableau& tableau, Ode& ode)
       error_(trial_),
       zero_(trial_) {
   for (std::size_t i = 0; i < static_cast<std::size_t>(tableau.stages); ++i)
-    stage_sums_.push_back(weighted_sum(tableau.a[i]));
-  if (tableau.adaptive) error_sum_ = weighted_sum(difference(tableau.b, tableau.b_hat));
+    stage_sums_.push_back(weighted_sum(tableau.a[i], ode.read_size()));
+  if (tableau.adaptive) error_sum_ = weighted_sum(difference(tableau.b, tableau.b_hat), size_);
 }
 
 void RungeKutta::evaluate_stages(double time, double h) {

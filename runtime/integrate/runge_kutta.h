@@ -21,6 +21,8 @@ class Ode {
  public:
   virtual ~Ode() = default;
   virtual int size() const = 0;
+  /// How many of them derivative() reads: quadratures lie behind.
+  virtual int read_size() const { return size(); }
   virtual void derivative(double time, std::span<const double> state, std::span<double> rate) = 0;
   virtual void finish_step(std::span<double> state) = 0;
   /// How its rates may be summed.
@@ -67,7 +69,8 @@ class RungeKutta {
   int first_non_finite() const;
 
  private:
-  WeightedSum weighted_sum(const Tableau::Row& coefficients) const;
+  /// @param size  of the sum, without padding
+  WeightedSum weighted_sum(const Tableau::Row& coefficients, int size) const;
   void evaluate_stages(double time, double h);
   std::span<const double> entries(const Eigen::VectorXd& padded) const {
     return {padded.data(), static_cast<std::size_t>(size_)};

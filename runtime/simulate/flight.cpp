@@ -74,6 +74,7 @@ class Flight::BookkeepingOde final : public Ode {
   explicit BookkeepingOde(Engine& engine)
       : engine_(engine), size_(static_cast<std::size_t>(engine.layout().size())) {}
   int size() const override { return static_cast<int>(size_ + kBooks); }
+  int read_size() const override { return static_cast<int>(size_); }
   void derivative(double time, std::span<const double> state, std::span<double> rate) override {
     // Where they belong: a copy would be read while it is on its way to memory.
     auto* books = reinterpret_cast<BookRates*>(rate.last(kBooks).data());
@@ -93,6 +94,7 @@ class Flight::ExcusingOde final : public Ode {
  public:
   explicit ExcusingOde(Ode& ode) : ode_(ode) {}
   int size() const override { return ode_.size(); }
+  int read_size() const override { return ode_.read_size(); }
   void derivative(double time, std::span<const double> state, std::span<double> rate) override {
     try {
       ode_.derivative(time, state, rate);
@@ -115,6 +117,7 @@ class Flight::ExcusingOde final : public Ode {
 
 Flight::Flight(Engine& engine, const Model& model, FlightOptions options)
     : engine_(engine),
+      size_(engine.layout().size()),
       ode_(options.keeps_books ? std::unique_ptr<Ode>(std::make_unique<BookkeepingOde>(engine))
                                : std::make_unique<EngineOde>(engine)),
       excusing_(is_adaptive(model) ? std::make_unique<ExcusingOde>(*ode_) : nullptr),
@@ -136,14 +139,9 @@ Flight::Flight(Engine& engine, const Model& model, FlightOptions options)
 
 Flight::~Flight() = default;
 
-std::span<const double> Flight::state() const {
-  return {stepper_.solution().value.data(), static_cast<std::size_t>(engine_.layout().size())};
-}
-
 Books Flight::books() const {
-  const int size = engine_.layout().size();
-  if (stepper_.size() == size) return {};
-  const std::span<const double> books{stepper_.solution().value.data() + size, kBooks};
+  if (stepper_.size() == size_) return {};
+  const std::span<const double> books{state().data() + size_, kBooks};
   return {books[0], Vector3d::Map(&books[1]), Vector3d::Map(&books[4]), books[7]};
 }
 

@@ -43,8 +43,10 @@ class Flight {
   bool done() const { return landings_.done(); }
   double time() const { return time_; }                       // [s]
   double tolerance() const { return landings_.tolerance(); }  // [s] closer instants are one
-  std::span<const double> state() const;                      // of the engine
-  Books books() const;                                        // zeros unless they are kept
+  std::span<const double> state() const {                     // of the engine
+    return {stepper_.solution().value.data(), static_cast<std::size_t>(size_)};
+  }
+  Books books() const;  // zeros unless they are kept
   const StepCounts& counts() const { return counts_; }
   const AcceptedErrors& accepted() const { return accepted_; }
 
@@ -110,6 +112,7 @@ class Flight {
   [[noreturn]] void fail() const;
 
   Engine& engine_;
+  int size_;  // of its state
   std::unique_ptr<Ode> ode_;
   std::unique_ptr<ExcusingOde> excusing_;  // of an adaptive method
   RungeKutta stepper_;
