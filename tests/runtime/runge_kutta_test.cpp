@@ -26,6 +26,7 @@ class FunctionOde : public Ode {
   using Rate = std::function<void(double, std::span<const double>, std::span<double>)>;
   FunctionOde(int size, Rate rate) : size_(size), rate_(std::move(rate)) {}
   int size() const override { return size_; }
+  int read_size() const override { return read > 0 ? read : size_; }
   void derivative(double time, std::span<const double> state, std::span<double> rate) override {
     times.push_back(time);
     rate_(time, state, rate);
@@ -34,6 +35,7 @@ class FunctionOde : public Ode {
   StageAccess access() const override { return how; }
   std::vector<double> times;
   StageAccess how;
+  int read = 0;  // 0: all
 
  private:
   int size_;
@@ -150,15 +152,19 @@ TEST_P(EveryMethod, LeavesAStateBitwiseAloneWhenQuadraturesAreAppended) {
     nonlinear(t, y.first(2), rate.first(2));
     for (std::size_t i = 2; i < 9; ++i) rate[i] = y[0] * static_cast<double>(i);
   });
+  FunctionOde said = wide;
+  said.read = 2;
   RungeKutta alone(tableau_, bare);
   RungeKutta accompanied(tableau_, wide);
-  for (RungeKutta* stepper : {&alone, &accompanied}) {
+  RungeKutta in_part(tableau_, said);
+  for (RungeKutta* stepper : {&alone, &accompanied, &in_part}) {
     stepper->state()[0] = stepper->state()[1] = 1.0;
     for (int i = 0; i < 30; ++i) stepper->step(0.1 * i, 0.1);
   }
   EXPECT_EQ(alone.state()[0], accompanied.state()[0]);
   EXPECT_EQ(alone.state()[1], accompanied.state()[1]);
   EXPECT_NE(accompanied.state()[8], 0.0);
+  EXPECT_TRUE(std::ranges::equal(in_part.state(), accompanied.state()));
 }
 
 TEST(RungeKutta, DoesNotLetRoundingGrowWithTheNumberOfSteps) {
