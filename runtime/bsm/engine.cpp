@@ -1,6 +1,9 @@
 // See engine.h: the state vector around the kernel. Tested by tests/runtime/bsm_test.cpp.
 #include "runtime/bsm/engine.h"
 
+#include <algorithm>
+#include <vector>
+
 #include "runtime/bsm/kernel.h"
 #include "runtime/bsm/mass_matrix.h"
 #include "runtime/bsm/motion.h"
@@ -34,6 +37,31 @@ struct Machine {
   PropellantLedger propellant;  // as at t = 0: each engine begins with a copy
 };
 
+/// States that wait to be observed.
+class Notebook {
+ public:
+  Notebook(std::size_t pages, const Machine& machine)
+      : state_size_(static_cast<std::size_t>(machine.layout.size())),
+        tanks_(machine.propellant.share_rates().size()),
+        numbers_(pages * (state_size_ + tanks_)) {
+    noted_.reserve(pages);
+  }
+
+  void add(std::span<const double> state, std::span<const double> shares, Observation& seen) {
+    double* at = numbers_.data() + noted_.size() * (state_size_ + tanks_);
+    std::copy_n(state.data(), state_size_, at);
+    std::copy_n(shares.data(), tanks_, at + state_size_);
+    noted_.push_back({at, at + state_size_, &seen});
+  }
+  std::span<const Noted> noted() const { return noted_; }
+  void clear() { noted_.clear(); }
+
+ private:
+  std::size_t state_size_, tanks_;
+  std::vector<double> numbers_;
+  std::vector<Noted> noted_;
+};
+
 class BsmEngine final : public Engine {
  public:
   BsmEngine(std::shared_ptr<const Machine> machine, InstructionSet set)
@@ -41,6 +69,7 @@ class BsmEngine final : public Engine {
         set_(set),
         kernel_(make_kernel(machine_->plan, set)),
         observer_(make_observer(machine_->plan, machine_->assembly, set)),
+        notebook_(observer_->lanes(), *machine_),
         held_(HeldInputs::none(machine_->assembly)),
         propellant_(machine_->propellant) {
     BsmEngine::hold(machine_->start);
@@ -71,9 +100,19 @@ class BsmEngine final : public Engine {
   void finish_step(std::span<double> state) override { kernel_->finish_step(state.data()); }
 
   void observe(double time, std::span<const double> state, Observation& seen) override {
+    note(time, state, seen);
+    sum_up_noted();
+  }
+  std::size_t summed_at_once() const override { return observer_->lanes(); }
+  void note(double time, std::span<const double> state, Observation& seen) override {
     unpack(state, layout(), seen);
     seen.time = time;
-    observer_->observe(state.data(), propellant_.shares(time), seen);
+    notebook_.add(state, propellant_.shares(time), seen);
+  }
+  void sum_up_noted() override {
+    if (notebook_.noted().empty()) return;
+    observer_->observe(notebook_.noted());
+    notebook_.clear();
   }
 
   Eigen::MatrixXd mass_matrix(std::span<const double> state) override {
@@ -120,6 +159,7 @@ class BsmEngine final : public Engine {
   InstructionSet set_;
   std::unique_ptr<Kernel> kernel_;
   std::unique_ptr<Observer> observer_;
+  Notebook notebook_;
   HeldInputs held_;
   PropellantLedger propellant_;  // of observations; the kernel has its own
 };

@@ -1,6 +1,7 @@
 // What the analytic engine reports of itself: mass, momenta and energies, once per sample, behind
 // an interface like the kernel's and built for an instruction set. It shares nothing with a step
-// but constants. Tested by tests/runtime/observer_test.cpp.
+// but constants, and takes as many samples at once as the set has lanes. Tested by
+// tests/runtime/observer_test.cpp.
 #pragma once
 
 #include <memory>
@@ -13,14 +14,23 @@
 
 namespace twincraft::bsm {
 
+/// A state, and who is to be told what it comes to.
+struct Noted {
+  const double* state;   // laid out as runtime/engine/state.h says
+  const double* shares;  // of every tank: what is left, as a part of what it held at t = 0
+  Observation* seen;
+};
+
 class Observer {
  public:
   virtual ~Observer() = default;
 
-  /// Set all of `seen` that is a sum over mass elements, rotors and springs.
-  /// @param state   laid out as runtime/engine/state.h says
-  /// @param shares  of every tank: what is left, as a part of what it held at t = 0
-  virtual void observe(const double* state, std::span<const double> shares, Observation& seen) = 0;
+  /// How many states are summed up at once.
+  virtual std::size_t lanes() const = 0;
+
+  /// Set all of `seen` that is a sum over mass elements, rotors and springs. What comes of a state
+  /// depends on no other. @pre there are 1 to lanes() of them
+  virtual void observe(std::span<const Noted> noted) = 0;
 };
 
 /// @pre the processor has `set`

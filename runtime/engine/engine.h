@@ -66,6 +66,14 @@ class Engine {
     observe(time, state, seen);
     return seen;
   }
+  /// An observation in two parts, the second for several at once: note() sets what `seen` shows of
+  /// the state itself, sum_up_noted() the sums over the vehicle in all that has been noted since it
+  /// was last called. @pre `seen` stays where it is until then; fewer than summed_at_once() wait
+  virtual void note(double time, std::span<const double> state, Observation& seen) {
+    observe(time, state, seen);
+  }
+  virtual void sum_up_noted() {}
+  virtual std::size_t summed_at_once() const { return 1; }
 
   /// The mass matrix over (v_B in N, omega in B, joint rates, wheel rates) when what is held began,
   /// for proofs.

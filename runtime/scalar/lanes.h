@@ -41,6 +41,12 @@ using BatchArch = simd::sse2;
 using Pair = simd::batch<double, simd::sse2>;
 /// As many spacecraft as the instruction set has lanes for.
 using Batch = simd::batch<double, BatchArch>;
+/// As many instants of one spacecraft as are looked at together.
+#if defined(__AVX2__)
+using Instants = simd::batch<double, simd::avx2>;
+#else
+using Instants = Pair;
+#endif
 
 template <class S>
 struct SineCosine {
@@ -98,6 +104,16 @@ template <class S>
 S two_lanes(double first, double second) {
   return S(_mm_set_pd(second, first));
 }
+/// Entry `at` of each vector.
+inline Pair entry_of_each(const std::array<const double*, 2>& vectors, std::size_t at) {
+  return _mm_setr_pd(vectors[0][at], vectors[1][at]);
+}
+#if defined(__AVX2__)
+inline simd::batch<double, simd::avx2> entry_of_each(const std::array<const double*, 4>& vectors,
+                                                     std::size_t at) {
+  return _mm256_setr_pd(vectors[0][at], vectors[1][at], vectors[2][at], vectors[3][at]);
+}
+#endif
 /// The first lane's place is written last.
 inline void put_two_lanes(const Pair& value, double* state, const std::array<int, 2>& places) {
   _mm_storeh_pd(state + places[1], value);

@@ -38,31 +38,43 @@ class RecordedRun::Recording {
         options_(std::move(options)),
         flight_(engine, model, {.keeps_books = true}),
         due_(model, flight_.tolerance()),
-        progress_(options_.progress) {
+        progress_(options_.progress),
+        last_(std::make_unique<Sample>()) {
+    for (std::size_t i = 0; i < engine.summed_at_once(); ++i)
+      waiting_.push_back(std::make_unique<Sample>());
     guarded([this] {
       record();
       capture_instants();
     });
+    if (ended_) deliver();
   }
 
   bool ended() const { return ended_; }
   double time() const { return flight_.time(); }
 
   void advance_until(double time) {
-    if (!ended_) guarded([this, time] { fly(time); });
+    if (ended_) return;
+    guarded([this, time] { fly(time); });
+    if (ended_) deliver();
   }
 
   Trajectory take_trajectory() {
     trajectory_.counts = flight_.counts();
     trajectory_.accepted = flight_.accepted();
+    deliver();
     if (trajectory_.recorded > 0) {
-      trajectory_.samples.push_back(std::move(last_));
-      trajectory_.books.push_back(last_books_);
+      trajectory_.samples.push_back(std::move(last_->seen));
+      trajectory_.books.push_back(last_->books);
     }
     return std::move(trajectory_);
   }
 
  private:
+  struct Sample {
+    Observation seen;
+    Books books;
+  };
+
   template <class Work>
   void guarded(const Work& work) {
     try {
@@ -88,19 +100,31 @@ class RecordedRun::Recording {
   }
 
   void end() {
-    if (last_.time != flight_.time()) record();
+    if (recorded_at_ != flight_.time()) record();
     if (flight_.time() < model_.simulation.duration)
       trajectory_.status = Trajectory::Status::kInterrupted;
     ended_ = true;
   }
 
   void record() {
-    engine_.observe(flight_.time(), flight_.state(), last_);
-    refuse_absurd(last_, model_);
-    last_books_ = flight_.books();
+    Sample& sample = *waiting_[waiting_count_];
+    recorded_at_ = flight_.time();
+    engine_.note(recorded_at_, flight_.state(), sample.seen);
+    refuse_absurd(sample.seen, model_);
+    sample.books = flight_.books();
     ++trajectory_.recorded;
-    due_.taken(flight_.time());
-    sink_.take(last_, last_books_);
+    due_.taken(recorded_at_);
+    if (++waiting_count_ == waiting_.size()) deliver();
+  }
+
+  /// What waits, to the sink. When that is depends on nothing but the number of samples.
+  void deliver() {
+    engine_.sum_up_noted();
+    if (waiting_count_ == 0) return;
+    for (std::size_t i = 0; i < waiting_count_; ++i)
+      sink_.take(waiting_[i]->seen, waiting_[i]->books);
+    std::swap(last_, waiting_[waiting_count_ - 1]);
+    waiting_count_ = 0;
   }
 
   /// All that have come, and when the next one does.
@@ -122,8 +146,10 @@ class RecordedRun::Recording {
   SampleTimes due_;
   Progress progress_;
   Trajectory trajectory_;
-  Observation last_;  // taken
-  Books last_books_;
+  std::vector<std::unique_ptr<Sample>> waiting_;  // as many as the engine sums up at once
+  std::size_t waiting_count_ = 0;
+  double recorded_at_ = -1.0;     // [s] the last of them
+  std::unique_ptr<Sample> last_;  // that the sink has taken
   double next_instant_ = kNever;
   bool ended_ = false;
 };

@@ -15,7 +15,8 @@
 
 namespace twincraft {
 
-/// Takes what a run records, one sample after another.
+/// Takes what a run records, one sample after another and a few at a time: all of them by the run's
+/// end.
 class SampleSink {
  public:
   virtual ~SampleSink() = default;
@@ -57,7 +58,7 @@ struct PropagateOptions {
 /// one.
 class RecordedRun {
  public:
-  /// `sink` gets the state at t = 0 at once. All that is referred to must outlive the run.
+  /// Begins with the state at t = 0. All that is referred to must outlive the run.
   /// @pre step, duration and record of the plan are positive
   RecordedRun(Engine& engine, const Model& model, SampleSink& sink, PropagateOptions options = {});
   ~RecordedRun();

@@ -59,7 +59,40 @@ class Observer : public testing::TestWithParam<const char*> {
 
 TEST_P(Observer, SumsUpAllElements) { expect_plain_sums(model_); }
 
-TEST_P(Observer, DoesSoUnderEveryLawOfGravityAndInQuaternions) {
+/// All numbers of an observation.
+std::vector<double> numbers_of(const Observation& seen) {
+  std::vector<double> numbers{seen.time,        seen.mass,    seen.kinetic,        seen.potential,
+                              seen.own_kinetic, seen.springs, seen.momentum_scale, seen.H_scale};
+  for (const Vector3d* v : {&seen.r_BN_N, &seen.v_BN_N, &seen.omega_BN_B, &seen.r_CN_N,
+                            &seen.v_CN_N, &seen.momentum, &seen.H_PntC_N})
+    numbers.insert(numbers.end(), v->begin(), v->end());
+  for (const std::vector<double>* all : {&seen.joint_position, &seen.joint_rate, &seen.wheel_rate})
+    numbers.insert(numbers.end(), all->begin(), all->end());
+  return numbers;
+}
+
+TEST_P(Observer, SaysOfAStateTheSameBytesWhateverIsObservedWithIt) {
+  for (const bsm::InstructionSet set : bsm::instruction_sets()) {
+    const auto engine = make_bsm_engine(model_, set);
+    const std::vector<RandomState> states = random_states(model_, 7);
+    for (std::size_t count = 1; count <= engine->summed_at_once(); ++count) {
+      std::vector<Observation> together(count);
+      for (std::size_t i = 0; i < count; ++i) {
+        const Eigen::VectorXd x = pack(states[i], engine->layout());
+        engine->hold(inputs_at(model_, states[i].time));  // gone when it is summed up
+        engine->note(states[i].time, span_of(x), together[i]);
+      }
+      engine->sum_up_noted();
+      for (std::size_t i = 0; i < count; ++i) {
+        const Eigen::VectorXd x = pack(states[i], engine->layout());
+        engine->hold(inputs_at(model_, states[i].time));
+        EXPECT_EQ(numbers_of(together[i]), numbers_of(engine->observe(states[i].time, span_of(x))));
+      }
+    }
+  }
+}
+
+TEST_P(Observer, SumsUpUnderEveryLawOfGravityAndInQuaternions) {
   for (const GravityLaw law : {GravityLaw::kNone, GravityLaw::kSystemCom, GravityLaw::kBodyCom,
                                GravityLaw::kBodyGradient}) {
     SCOPED_TRACE(testing::Message() << "law " << static_cast<int>(law));
