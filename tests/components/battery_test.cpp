@@ -10,38 +10,20 @@
 #include "runtime/bsm/plan.h"
 #include "runtime/compare/agreement.h"
 #include "runtime/compare/conservation.h"
-#include "runtime/compare/random_state.h"
 #include "runtime/mujoco/engine.h"
 #include "runtime/simulate/propagate.h"
+#include "tests/support/asked.h"
 #include "tests/support/compiled.h"
 
 namespace twincraft {
 namespace {
 
+using test::accelerations_at;
 using test::compiled_file;
+using test::span_of;
 
 Bundle compiled(const std::string& vehicle, const std::vector<std::string>& overrides = {}) {
   return compiled_file("tests/components/vehicles/" + vehicle + ".yaml", overrides);
-}
-
-std::span<const double> span_of(const Eigen::VectorXd& v) {
-  return {v.data(), static_cast<std::size_t>(v.size())};
-}
-
-/// An engine at a state: v_B, omega, joint rates and wheel rates differentiated, whatever the
-/// attitude chart.
-Eigen::VectorXd accelerations(const Model& model, Engine& engine, const RandomState& state,
-                              BookRates* books = nullptr) {
-  const StateLayout& at = engine.layout();
-  const Eigen::VectorXd x = pack(state, at);
-  Eigen::VectorXd rate(x.size());
-  engine.hold(inputs_at(model, state.time));
-  engine.derivative(state.time, span_of(x), {rate.data(), static_cast<std::size_t>(rate.size())},
-                    books);
-  Eigen::VectorXd all(6 + at.joints + at.wheels);
-  all << rate.segment<3>(StateLayout::velocity()), rate.segment<3>(at.rate()),
-      rate.segment(at.joint_rate(), at.joints), rate.segment(at.wheel(), at.wheels);
-  return all;
 }
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
@@ -65,8 +47,8 @@ double spin_rounding(const Model& model, const RandomState& state) {
 /// Block by block, so that a large block hides no small one.
 void expect_same_accelerations(const Model& model, Engine& bsm, Engine& mujoco) {
   for (const RandomState& state : random_states(model, 200)) {
-    const Eigen::VectorXd a = accelerations(model, bsm, state);
-    const Eigen::VectorXd b = accelerations(model, mujoco, state);
+    const Eigen::VectorXd a = accelerations_at(model, bsm, state);
+    const Eigen::VectorXd b = accelerations_at(model, mujoco, state);
     const int joints = bsm.layout().joints, wheels = bsm.layout().wheels;
     EXPECT_LT((a - b).head<3>().norm(),
               1e-11 * b.head<3>().norm() + 2.0 * spin_rounding(model, state));
@@ -97,8 +79,8 @@ TEST_P(Battery, GivesTheSameAccelerationsInBothEngines) {
 TEST_P(Battery, BooksTheSameInBothEngines) {
   for (const RandomState& state : random_states(bundle_.model, 50)) {
     BookRates a, b;
-    accelerations(bundle_.model, *bsm_, state, &a);
-    accelerations(bundle_.model, *mujoco_, state, &b);
+    accelerations_at(bundle_.model, *bsm_, state, &a);
+    accelerations_at(bundle_.model, *mujoco_, state, &b);
     EXPECT_NEAR(a.power, b.power, 1e-11 * (1.0 + std::abs(a.power)));
     EXPECT_NEAR(a.own_power, b.own_power, 1e-11 * (1.0 + std::abs(a.own_power)));
     EXPECT_LT((a.force_N - b.force_N).norm(), 1e-11 * (1.0 + a.force_N.norm()));
@@ -111,8 +93,8 @@ TEST_P(Battery, MovesTheSameWhetherItsBooksAreKeptOrNot) {
   const auto expect_same = [this](Engine& engine) {
     for (const RandomState& state : random_states(bundle_.model, 20)) {
       BookRates books;
-      const Eigen::VectorXd bare = accelerations(bundle_.model, engine, state);
-      EXPECT_EQ(accelerations(bundle_.model, engine, state, &books), bare) << engine.name();
+      const Eigen::VectorXd bare = accelerations_at(bundle_.model, engine, state);
+      EXPECT_EQ(accelerations_at(bundle_.model, engine, state, &books), bare) << engine.name();
     }
   };
   expect_same(*mujoco_);
@@ -138,12 +120,12 @@ TEST_P(Battery, FeelsNothingOfACommonVelocityOrPlaceWithoutGravity) {
   const auto bsm = make_bsm_engine(free);
   const auto mujoco = make_mujoco_engine(free, bundle_.text(kMjcf));
   for (RandomState state : random_states(free, 20)) {
-    const Eigen::VectorXd a = accelerations(free, *bsm, state);
-    const Eigen::VectorXd b = accelerations(free, *mujoco, state);
+    const Eigen::VectorXd a = accelerations_at(free, *bsm, state);
+    const Eigen::VectorXd b = accelerations_at(free, *mujoco, state);
     state.r_BN_N += Vector3d(7e6, -3e6, 1e6);
     state.v_BN_N += Vector3d(-2e3, 7e3, 1e3);
-    EXPECT_EQ(a, accelerations(free, *bsm, state));
-    EXPECT_EQ(b, accelerations(free, *mujoco, state));
+    EXPECT_EQ(a, accelerations_at(free, *bsm, state));
+    EXPECT_EQ(b, accelerations_at(free, *mujoco, state));
   }
 }
 
@@ -202,11 +184,11 @@ TEST_F(SameMachine, WrittenAsBodiesHasTheAccelerationsOfThePanels) {
   const auto a = make_bsm_engine(panels_.model), b = make_bsm_engine(bodies_.model);
   const auto c = make_mujoco_engine(bodies_.model, bodies_.text(kMjcf));
   for (const RandomState& state : random_states(panels_.model, 50)) {
-    const Eigen::VectorXd of_panels = accelerations(panels_.model, *a, state);
+    const Eigen::VectorXd of_panels = accelerations_at(panels_.model, *a, state);
     // The same numbers by the same products: only rounding of the written decimals is left.
-    EXPECT_LT((accelerations(bodies_.model, *b, state) - of_panels).norm(),
+    EXPECT_LT((accelerations_at(bodies_.model, *b, state) - of_panels).norm(),
               1e-14 * of_panels.norm());
-    EXPECT_LT((accelerations(bodies_.model, *c, state) - of_panels).norm(),
+    EXPECT_LT((accelerations_at(bodies_.model, *c, state) - of_panels).norm(),
               1e-11 * of_panels.norm());
   }
 }
@@ -251,7 +233,7 @@ TEST_F(SameMachine, WrittenAsBodiesFliesAlikeByEitherPath) {
   const auto a = make_bsm_engine(general), b = make_bsm_engine(bodies_.model);
   const RandomState state = random_states(general, 1).front();
   // Rounded in another order: they are two paths, and one motion.
-  EXPECT_NE(accelerations(general, *a, state), accelerations(general, *b, state));
+  EXPECT_NE(accelerations_at(general, *a, state), accelerations_at(general, *b, state));
   const Comparison flown = compare(general, propagate(*a, general), propagate(*b, bodies_.model));
   ASSERT_EQ(flown.metrics.at(0).key, "attitude_deg");
   EXPECT_LT(flown.metrics.at(0).maximum, 6e-13);
@@ -286,8 +268,8 @@ TEST(Limits, APanelOfVanishingMassLeavesTheHubAlone) {
   const Bundle without = compiled("panel", {"panels=null"});
   const auto engine = make_bsm_engine(with.model);
   const auto bare = make_bsm_engine(without.model);
-  const Eigen::VectorXd a = accelerations(with.model, *engine, undisturbed(with.model));
-  const Eigen::VectorXd b = accelerations(without.model, *bare, undisturbed(without.model));
+  const Eigen::VectorXd a = accelerations_at(with.model, *engine, undisturbed(with.model));
+  const Eigen::VectorXd b = accelerations_at(without.model, *bare, undisturbed(without.model));
   // The panel's mass and inertia are 1e-11 of the hub's.
   const Vector3d omega_dot = b.segment<3>(3);
   EXPECT_LT((a.segment<3>(3) - omega_dot).norm(), 1e-9 * omega_dot.norm());
@@ -298,7 +280,7 @@ TEST(Limits, AWheelWithoutMotorOrSpinIsDeadWeight) {
   const Bundle with = compiled("wheel", {"wheels.*.torque=0", "wheels.*.speed=0"});
   const auto engine = make_bsm_engine(with.model);
   const RandomState state = undisturbed(with.model);
-  const Eigen::VectorXd a = accelerations(with.model, *engine, state);
+  const Eigen::VectorXd a = accelerations_at(with.model, *engine, state);
   // A free wheel keeps its absolute spin about its axis: OmegaDot = -g . omegaDot.
   for (std::size_t k = 0; k < with.model.assembly.rotors.size(); ++k) {
     const double expected = -with.model.assembly.rotors[k].axis_L.dot(a.segment<3>(3));

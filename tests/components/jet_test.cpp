@@ -8,16 +8,18 @@
 #include "compiler/analysis/configuration.h"
 #include "runtime/bsm/engine.h"
 #include "runtime/compare/agreement.h"
-#include "runtime/compare/random_state.h"
 #include "runtime/mujoco/engine.h"
 #include "runtime/simulate/propagate.h"
 #include "tests/support/allocation_counter.h"
+#include "tests/support/asked.h"
 #include "tests/support/compiled.h"
 
 namespace twincraft {
 namespace {
 
 using test::compiled;
+using test::derivative_at;
+using test::span_of;
 
 Bundle written(const std::string& text, const std::vector<std::string>& overrides = {}) {
   return compiled({"<test>", overrides, "format: spacecraft/1\nname: test\n" + text});
@@ -35,16 +37,6 @@ std::vector<std::unique_ptr<Engine>> both_engines(const Bundle& bundle) {
   engines.push_back(make_bsm_engine(bundle.model));
   engines.push_back(make_mujoco_engine(bundle.model, bundle.text(kMjcf)));
   return engines;
-}
-
-std::span<const double> span_of(const Eigen::VectorXd& v) {
-  return {v.data(), static_cast<std::size_t>(v.size())};
-}
-
-Eigen::VectorXd derivative(Engine& engine, double time, const Eigen::VectorXd& x) {
-  Eigen::VectorXd rate(x.size());
-  engine.derivative(time, span_of(x), {rate.data(), static_cast<std::size_t>(rate.size())});
-  return rate;
 }
 
 Observation end_of(Engine& engine, const Bundle& bundle) {
@@ -275,7 +267,7 @@ Momenta momenta(Engine& engine, double time, const Eigen::VectorXd& x) {
 /// How fast momenta change along the motion: central differences of fourth order.
 Momenta momenta_rate(Engine& engine, const RandomState& state) {
   const Eigen::VectorXd x = pack(state, engine.layout());
-  const Eigen::VectorXd rate = derivative(engine, state.time, x);
+  const Eigen::VectorXd rate = derivative_at(engine, state.time, x);
   constexpr double h = 2e-3;
   const auto difference = [&](double d) -> Momenta {
     const Momenta a = momenta(engine, state.time + d, x + d * rate);
@@ -370,8 +362,8 @@ TEST(Jet, PushesEveryBodyByItsShareOfTheStream) {
       with[i]->hold(inputs_at(jet.model, state.time));
       without[i]->hold(inputs_at(quiet.model, state.time));
       const Eigen::VectorXd change =
-          accelerations_of(derivative(*with[i], state.time, x), layout) -
-          accelerations_of(derivative(*without[i], state.time, x), layout);
+          accelerations_of(derivative_at(*with[i], state.time, x), layout) -
+          accelerations_of(derivative_at(*without[i], state.time, x), layout);
       const Eigen::VectorXd Q = stream_forces(jet.model, state);
       const Eigen::VectorXd found = with[i]->mass_matrix(span_of(x)) * change;
       ASSERT_GT(Q.norm(), 0.1);
@@ -449,10 +441,10 @@ TEST(Jet, EndsWithTheBurn) {
     const Eigen::VectorXd x = with[i]->initial_state();
     with[i]->hold(inputs_at(jet.model, 1.0));
     without[i]->hold(inputs_at(quiet.model, 1.0));
-    EXPECT_NE(derivative(*with[i], 1.0, x), derivative(*without[i], 1.0, x));
+    EXPECT_NE(derivative_at(*with[i], 1.0, x), derivative_at(*without[i], 1.0, x));
     with[i]->hold(inputs_at(jet.model, 3.0));
     without[i]->hold(inputs_at(quiet.model, 3.0));
-    EXPECT_EQ(derivative(*with[i], 3.0, x), derivative(*without[i], 3.0, x));
+    EXPECT_EQ(derivative_at(*with[i], 3.0, x), derivative_at(*without[i], 3.0, x));
   }
 }
 

@@ -4,20 +4,12 @@
 
 #include "runtime/bsm/engine.h"
 #include "runtime/mujoco/engine.h"
+#include "tests/support/asked.h"
 #include "tests/support/compiled.h"
 #include "tests/support/simbody_oracle.h"
 
 namespace twincraft {
 namespace {
-
-Eigen::VectorXd accelerations(const Model& model, Engine& engine, const RandomState& state) {
-  const Eigen::VectorXd y = pack(state, engine.layout());
-  Eigen::VectorXd rate(y.size());
-  engine.hold(inputs_at(model, state.time));
-  const auto size = static_cast<std::size_t>(y.size());
-  engine.derivative(state.time, {y.data(), size}, {rate.data(), size});
-  return accelerations_of(rate, engine.layout());
-}
 
 class Simbody : public testing::TestWithParam<std::string> {};
 
@@ -28,8 +20,8 @@ TEST_P(Simbody, AgreesWithBothEngines) {
   const auto mujoco = make_mujoco_engine(model, bundle.text(kMjcf));
   for (const RandomState& state : random_states(model, 20)) {
     const Eigen::VectorXd truth = test::simbody_accelerations(model, model.gravity.bsm, state);
-    const Eigen::VectorXd a = accelerations(model, *bsm, state);
-    const Eigen::VectorXd b = accelerations(model, *mujoco, state);
+    const Eigen::VectorXd a = test::accelerations_at(model, *bsm, state);
+    const Eigen::VectorXd b = test::accelerations_at(model, *mujoco, state);
     const auto agrees = [&truth](const Eigen::VectorXd& answer, Eigen::Index at,
                                  Eigen::Index count) {
       // Rates of about 0.1 rad/s make 0.01 of any acceleration; what is smaller is a difference.

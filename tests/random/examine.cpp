@@ -13,11 +13,11 @@
 #include "runtime/compare/agreement.h"
 #include "runtime/compare/conservation.h"
 #include "runtime/compare/proof.h"
-#include "runtime/compare/random_state.h"
 #include "runtime/mujoco/engine.h"
 #include "runtime/mujoco/handles.h"
 #include "tests/random/limited_engine.h"
 #include "tests/random/parts.h"
+#include "tests/support/asked.h"
 #include "tests/support/run_program.h"
 #include "tests/support/simbody_oracle.h"
 
@@ -150,23 +150,13 @@ class Examination {
     return true;
   }
 
-  static Eigen::VectorXd accelerations(const Model& model, Engine& engine,
-                                       const RandomState& state) {
-    const Eigen::VectorXd y = pack(state, engine.layout());
-    Eigen::VectorXd rate(y.size());
-    const auto size = static_cast<std::size_t>(y.size());
-    engine.hold(inputs_at(model, state.time));
-    engine.derivative(state.time, {y.data(), size}, {rate.data(), size});
-    return accelerations_of(rate, engine.layout());
-  }
-
   /// Either engine against Simbody, block by block.
   bool is_voted_for() {
     const Model& model = bundle_->model;
     for (const RandomState& state : random_states(model, 2)) {
       const Eigen::VectorXd vote = test::simbody_accelerations(model, model.gravity.bsm, state);
       for (Engine* engine : {bsm_.get(), mujoco_.get()}) {
-        const Eigen::VectorXd off = accelerations(model, *engine, state) - vote;
+        const Eigen::VectorXd off = test::accelerations_at(model, *engine, state) - vote;
         const auto relative = [&](Eigen::Index at, Eigen::Index count) {
           // What rates of about 0.1 rad/s make of any acceleration is the least to compare with.
           const double scale = vote.segment(at, count).norm();

@@ -7,19 +7,16 @@
 #include <thread>
 
 #include "runtime/bsm/engine.h"
-#include "runtime/compare/random_state.h"
 #include "runtime/mujoco/engine.h"
 #include "runtime/simulate/propagate.h"
+#include "tests/support/asked.h"
 #include "tests/support/compiled.h"
 
 namespace twincraft {
 namespace {
 
+using test::span_of;
 using Numbers = std::vector<double>;
-
-std::span<const double> span_of(const Eigen::VectorXd& v) {
-  return {v.data(), static_cast<std::size_t>(v.size())};
-}
 
 /// MuJoCo, and the analytic engine with each instruction set of this processor.
 std::vector<std::unique_ptr<Engine>> engines_of(const Bundle& bundle) {

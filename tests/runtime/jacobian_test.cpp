@@ -9,8 +9,8 @@
 
 #include "runtime/bsm/engine.h"
 #include "runtime/bsm/recording.h"
-#include "runtime/compare/random_state.h"
 #include "tests/support/allocation_counter.h"
+#include "tests/support/asked.h"
 #include "tests/support/compiled.h"
 #include "tests/support/kernel_in_scalars.h"
 
@@ -18,10 +18,7 @@ namespace twincraft {
 namespace {
 
 using bsm::Jacobian;
-
-std::span<const double> span_of(const Eigen::VectorXd& v) {
-  return {v.data(), static_cast<std::size_t>(v.size())};
-}
+using test::span_of;
 
 struct Vehicle {
   std::string name, file;
@@ -46,10 +43,8 @@ class Jacobians : public testing::TestWithParam<Vehicle> {
     return jacobian;
   }
   Eigen::VectorXd rate(const Inputs& inputs, double time, const Eigen::VectorXd& x) {
-    Eigen::VectorXd rate(x.size());
     engine_->hold(inputs);
-    engine_->derivative(time, span_of(x), {rate.data(), static_cast<std::size_t>(rate.size())});
-    return rate;
+    return test::derivative_at(*engine_, time, x);
   }
 
   /// How much of each state is a small change.

@@ -14,6 +14,7 @@
 #include "runtime/mujoco/tree_map.h"
 #include "runtime/mujoco/wrenches.h"
 #include "tests/support/allocation_counter.h"
+#include "tests/support/asked.h"
 #include "tests/support/dense_oracle.h"
 #include "tests/support/sample_models.h"
 
@@ -21,6 +22,7 @@ namespace twincraft {
 namespace {
 
 using Eigen::VectorXd;
+using test::span_of;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
@@ -29,14 +31,7 @@ std::unique_ptr<Engine> engine_of(const Model& model) {
 }
 
 VectorXd derivative(Engine& engine, const VectorXd& state, double time = 0.0) {
-  VectorXd rate(state.size());
-  engine.derivative(time, {state.data(), static_cast<std::size_t>(state.size())},
-                    {rate.data(), static_cast<std::size_t>(rate.size())});
-  return rate;
-}
-
-std::span<const double> span(const VectorXd& state) {
-  return {state.data(), static_cast<std::size_t>(state.size())};
+  return test::derivative_at(engine, time, state);
 }
 
 double relative_difference(const VectorXd& a, const VectorXd& b) {
@@ -302,9 +297,9 @@ TEST(MujocoEngine, HasTheMassMatrixOfItsKineticEnergy) {
     VectorXd state = test::sample_state(model, 7);
     state.segment<3>(3) << 0.1, -0.2, 0.3;
     const VectorXd u = velocity_part(engine->layout(), state);
-    const Eigen::MatrixXd mass = engine->mass_matrix(span(state));
+    const Eigen::MatrixXd mass = engine->mass_matrix(span_of(state));
     EXPECT_EQ(mass, mass.transpose());
-    const double kinetic = engine->observe(0.0, span(state)).kinetic;
+    const double kinetic = engine->observe(0.0, span_of(state)).kinetic;
     EXPECT_NEAR(0.5 * u.dot(mass * u) / kinetic, 1.0, 1e-13) << model.name;
   }
 }
@@ -319,11 +314,11 @@ TEST(MujocoEngine, KeepsItsBooksUnderEveryGravityLaw) {
     const VectorXd state = near_asteroid(model, 11);
     const VectorXd rate = derivative(*engine, state);
     const double h = 1e-5;  // [s]
-    const Observation before = engine->observe(0.0, span(state - h * rate));
-    const Observation after = engine->observe(0.0, span(state + h * rate));
+    const Observation before = engine->observe(0.0, span_of(state - h * rate));
+    const Observation after = engine->observe(0.0, span_of(state + h * rate));
     BookRates outside;
     VectorXd same(rate.size());
-    engine->derivative(0.0, span(state), {same.data(), static_cast<std::size_t>(same.size())},
+    engine->derivative(0.0, span_of(state), {same.data(), static_cast<std::size_t>(same.size())},
                        &outside);
     EXPECT_EQ(same, rate);
     const double power =
@@ -344,7 +339,7 @@ TEST(MujocoEngine, ObservesTheCentreOfMassWhereMomentumSaysItMoves) {
   VectorXd state = test::sample_state(model, 13);
   state.head<6>() << 7.0e6, 0.0, 0.0, 0.0, 7.5e3, 0.0;
   state.segment<4>(6) << -0.5, 0.5, 0.5, -0.5;
-  const Observation seen = engine->observe(2.5, span(state));
+  const Observation seen = engine->observe(2.5, span_of(state));
   EXPECT_EQ(seen.time, 2.5);
   EXPECT_LT((seen.momentum - seen.mass * seen.v_CN_N).norm(), 1e-14 * seen.momentum_scale);
   EXPECT_NEAR(seen.mass, 600.0 + 25.0 + 12.0 + 3.0 + 2.0 + 6.0, 1e-12);
@@ -402,7 +397,7 @@ TEST(MujocoEngine, DoesNotAllocateInADerivative) {
     return kInstalled(size);
   };
   const long before = test::allocation_count();
-  for (int i = 0; i < 100; ++i) engine->derivative(0.0, span(state), out);
+  for (int i = 0; i < 100; ++i) engine->derivative(0.0, span_of(state), out);
   const long after = test::allocation_count();
   mju_user_malloc = kInstalled;
   EXPECT_EQ(after - before, 0);

@@ -8,10 +8,10 @@
 #include "runtime/compare/agreement.h"
 #include "runtime/compare/conservation.h"
 #include "runtime/compare/proof.h"
-#include "runtime/compare/random_state.h"
 #include "runtime/mujoco/engine.h"
 #include "runtime/reference/reference.h"
 #include "runtime/study/member.h"
+#include "tests/support/asked.h"
 #include "tests/support/compiled.h"
 
 namespace twincraft {
@@ -25,15 +25,6 @@ Bundle compiled(const std::vector<std::string>& overrides = {}) {
   return test::compiled_file("tests/golden/point_mass.yaml", overrides);
 }
 
-Eigen::VectorXd acceleration(const Model& model, Engine& engine, const RandomState& state) {
-  const Eigen::VectorXd x = pack(state, engine.layout());
-  Eigen::VectorXd rate(x.size());
-  const auto size = static_cast<std::size_t>(x.size());
-  engine.hold(inputs_at(model, state.time));
-  engine.derivative(state.time, {x.data(), size}, {rate.data(), size});
-  return accelerations_of(rate, engine.layout());
-}
-
 TEST(PointMass, IsPulledByGravityWhereItsMassIsAndPushedByItsLoads) {
   const Bundle bundle = compiled();
   const Model& model = bundle.model;
@@ -45,7 +36,8 @@ TEST(PointMass, IsPulledByGravityWhereItsMassIsAndPushedByItsLoads) {
     if (state.time < 30.0) expected += Vector3d(3.0, -6.0, 9.0) / 750.0;
     for (Engine* engine : {bsm.get(), mujoco.get()}) {
       EXPECT_EQ(engine->layout().size(), 6);
-      EXPECT_LT((acceleration(model, *engine, state) - expected).norm(), 1e-14 * expected.norm());
+      EXPECT_LT((test::accelerations_at(model, *engine, state) - expected).norm(),
+                1e-14 * expected.norm());
     }
   }
 }
