@@ -2,17 +2,13 @@
 // plain doubles, for every kind of vehicle, force and law of gravity, with every instruction set.
 #include <gtest/gtest.h>
 
-#include "runtime/bsm/engine.h"
-#include "runtime/compare/random_state.h"
-#include "tests/support/compiled.h"
+#include "tests/support/any_vehicle.h"
 #include "tests/support/plain_books.h"
 
 namespace twincraft {
 namespace {
 
-std::span<const double> span_of(const Eigen::VectorXd& v) {
-  return {v.data(), static_cast<std::size_t>(v.size())};
-}
+using test::span_of;
 
 constexpr double kRounding = 1.0e-13;
 
@@ -21,13 +17,6 @@ void expect_same(const BookRates& found, const test::SizedRates& plain) {
   EXPECT_NEAR(found.own_power, plain.own_power, kRounding * plain.own_power_size);
   EXPECT_LE((found.force_N - plain.force_N).norm(), kRounding * plain.force_size);
   EXPECT_LE((found.torque_PntC_N - plain.torque_PntC_N).norm(), kRounding * plain.torque_size);
-}
-
-/// So near a small body that links metres apart feel very different gravity.
-void put_beside_an_asteroid(GravityLaw law, Model& model) {
-  model.gravity = {5.0e4, law, law};
-  model.initial.r_BN_N = {60.0, -20.0, 30.0};
-  model.initial.v_BN_N = {-3.0, 20.0, 5.0};
 }
 
 /// On the hub, and on the last link where it can take one: at a point, and at the centre of mass.
@@ -43,56 +32,36 @@ void push(Model& model) {
   }
 }
 
-class Books : public testing::TestWithParam<const char*> {
+class Books : public test::AnyVehicle {
  protected:
-  void expect_plain_books(const Model& model) const {
-    test::PlainBooks plain(model);
-    for (const bsm::InstructionSet set : bsm::instruction_sets()) {
-      const auto engine = make_bsm_engine(model, set);
-      for (const RandomState& state : random_states(model, 20)) {
-        const Inputs inputs = inputs_at(model, state.time);
-        const Eigen::VectorXd x = pack(state, engine->layout());
-        std::vector<double> rate(static_cast<std::size_t>(x.size()));
-        BookRates books;
-        engine->hold(inputs);
-        plain.hold(inputs);
-        engine->derivative(state.time, span_of(x), rate, &books);
-        expect_same(books, plain.rates(state.time, span_of(x)));
-      }
-    }
+  static void expect_plain_books(const Model& model) {
+    at_random_states<test::PlainBooks>(
+        model, [](Engine& engine, test::PlainBooks& plain, double time, const Eigen::VectorXd& x) {
+          BookRates books;
+          test::derivative_at(engine, time, x, &books);
+          expect_same(books, plain.rates(time, span_of(x)));
+        });
   }
-
-  const Model model_ =
-      test::compiled_file("tests/components/vehicles/" + std::string(GetParam()) + ".yaml").model;
 };
 
 TEST_P(Books, AreThoseOfASweepOverAllLinks) { expect_plain_books(model_); }
 
 TEST_P(Books, AreSoUnderEveryLawOfGravityAndUnderLoads) {
-  for (const GravityLaw law : {GravityLaw::kNone, GravityLaw::kSystemCom, GravityLaw::kBodyCom,
-                               GravityLaw::kBodyGradient}) {
-    SCOPED_TRACE(testing::Message() << "law " << static_cast<int>(law));
-    Model model = model_;
-    put_beside_an_asteroid(law, model);
+  under_every_law([](Model model) {
     expect_plain_books(model);
     push(model);
     expect_plain_books(model);
-  }
+  });
 }
 
 TEST_P(Books, AreSoOnTheGeneralPathAndInQuaternions) {
-  Model model = model_;
+  Model model = beside_an_asteroid(GravityLaw::kBodyCom);
   model.engines.chains = ChainPath::kGeneral;
   model.engines.attitude = AttitudeChart::kQuaternion;
-  put_beside_an_asteroid(GravityLaw::kBodyCom, model);
   expect_plain_books(model);
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, Books,
-                         testing::Values("hub", "wheel", "panel", "chain", "damped", "gravity",
-                                         "arm", "arm_in_orbit", "flex_as_bodies", "particle",
-                                         "pendulum", "bob", "burn", "jet"),
-                         [](const auto& param_info) { return param_info.param; });
+INSTANTIATE_TEST_SUITE_P(Of, Books, test::kAnyVehicle, test::vehicle_name);
 
 }  // namespace
 }  // namespace twincraft

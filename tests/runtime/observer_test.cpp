@@ -2,17 +2,13 @@
 // plain doubles, for every kind of vehicle, law of gravity and chart, with every instruction set.
 #include <gtest/gtest.h>
 
-#include "runtime/bsm/engine.h"
-#include "runtime/compare/random_state.h"
-#include "tests/support/compiled.h"
+#include "tests/support/any_vehicle.h"
 #include "tests/support/plain_observation.h"
 
 namespace twincraft {
 namespace {
 
-std::span<const double> span_of(const Eigen::VectorXd& v) {
-  return {v.data(), static_cast<std::size_t>(v.size())};
-}
+using test::span_of;
 
 constexpr double kRounding = 1.0e-14;
 
@@ -37,24 +33,15 @@ void expect_same(const Observation& found, const test::SizedObservation& plain) 
   expect_same(found.H_scale, plain.H_scale, plain.H_scale);
 }
 
-class Observer : public testing::TestWithParam<const char*> {
+class Observer : public test::AnyVehicle {
  protected:
   static void expect_plain_sums(const Model& model) {
-    test::PlainObservation plain(model);
-    for (const bsm::InstructionSet set : bsm::instruction_sets()) {
-      const auto engine = make_bsm_engine(model, set);
-      for (const RandomState& state : random_states(model, 20)) {
-        const Inputs inputs = inputs_at(model, state.time);
-        const Eigen::VectorXd x = pack(state, engine->layout());
-        engine->hold(inputs);
-        plain.hold(inputs);
-        expect_same(engine->observe(state.time, span_of(x)), plain.observe(state.time, span_of(x)));
-      }
-    }
+    at_random_states<test::PlainObservation>(
+        model,
+        [](Engine& engine, test::PlainObservation& plain, double time, const Eigen::VectorXd& x) {
+          expect_same(engine.observe(time, span_of(x)), plain.observe(time, span_of(x)));
+        });
   }
-
-  const Model model_ =
-      test::compiled_file("tests/components/vehicles/" + std::string(GetParam()) + ".yaml").model;
 };
 
 TEST_P(Observer, SumsUpAllElements) { expect_plain_sums(model_); }
@@ -93,23 +80,13 @@ TEST_P(Observer, SaysOfAStateTheSameBytesWhateverIsObservedWithIt) {
 }
 
 TEST_P(Observer, SumsUpUnderEveryLawOfGravityAndInQuaternions) {
-  for (const GravityLaw law : {GravityLaw::kNone, GravityLaw::kSystemCom, GravityLaw::kBodyCom,
-                               GravityLaw::kBodyGradient}) {
-    SCOPED_TRACE(testing::Message() << "law " << static_cast<int>(law));
-    Model model = model_;
-    model.gravity = {5.0e4, law, law};
-    model.initial.r_BN_N = {60.0, -20.0, 30.0};  // where metres make a difference
-    model.initial.v_BN_N = {-3.0, 20.0, 5.0};
+  under_every_law([](Model model) {
     model.engines.attitude = AttitudeChart::kQuaternion;
     expect_plain_sums(model);
-  }
+  });
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, Observer,
-                         testing::Values("hub", "wheel", "panel", "chain", "damped", "gravity",
-                                         "arm", "arm_in_orbit", "flex_as_bodies", "particle",
-                                         "pendulum", "bob", "burn", "jet"),
-                         [](const auto& param_info) { return param_info.param; });
+INSTANTIATE_TEST_SUITE_P(Of, Observer, test::kAnyVehicle, test::vehicle_name);
 
 }  // namespace
 }  // namespace twincraft

@@ -6,12 +6,6 @@
 namespace twincraft::test {
 namespace {
 
-std::vector<std::vector<MassElement>> elements_of(const Assembly& assembly) {
-  std::vector<std::vector<MassElement>> elements;
-  for (const Link& link : assembly.links) elements.push_back(link.elements);
-  return elements;
-}
-
 void add_power(double power, double own_power, SizedRates& rates) {
   rates.power += power;
   rates.own_power += own_power;
@@ -42,21 +36,14 @@ struct PlainBooks::State : VehicleState {
 };
 
 PlainBooks::PlainBooks(const Model& model)
-    : model_(model),
-      layout_{model.engines.attitude, static_cast<int>(model.assembly.links.size()) - 1,
-              static_cast<int>(model.assembly.rotors.size())},
-      tree_(bsm::prepare(model.assembly)),
-      propellant_(model.tanks),
-      forces_(model, model.gravity.bsm, elements_of(model.assembly), FieldFrame::kFalling),
+    : PlainVehicle(model),
       link_forces_(model.forces, inputs_at(model, 0.0)),
       inputs_(inputs_at(model, 0.0)),
-      motion_(bsm::at_rest(tree_)),
       wrenches_(tree_.links.size()) {}
 
 void PlainBooks::hold(const Inputs& inputs) {
+  PlainVehicle::hold(inputs);
   inputs_ = inputs;
-  forces_.hold(inputs);
-  propellant_.hold(inputs);
   link_forces_.hold(inputs);
 }
 
@@ -70,15 +57,6 @@ SizedRates PlainBooks::rates(double time, std::span<const double> state) {
   add_forces(time, x, center, rates);
   if (!propellant_.is_idle()) add_leaving(x, center, rates);
   return rates;
-}
-
-void PlainBooks::move_to(double time, const State& x) {
-  if (!propellant_.is_idle()) {
-    const std::span<const double> shares = propellant_.shares(time);
-    bsm::set_shares(tree_, shares);
-    forces_.set_shares(shares);
-  }
-  bsm::move_links(tree_, x.joint_position, x.joint_rate, x.omega_BN_B, motion_);
 }
 
 PlainBooks::Center PlainBooks::center() const {

@@ -1,17 +1,14 @@
-// The rates of the books in plain doubles, by another way than the kernel's: every link is moved
-// from its parent and every wrench written down. What the kernel is held against.
+// The rates of the books in plain doubles: every wrench is written down. What the kernel is held
+// against.
 // Used by tests/runtime/books_test.cpp.
 #pragma once
 
 #include <span>
 #include <vector>
 
-#include "runtime/bsm/motion.h"
 #include "runtime/engine/observation.h"
-#include "runtime/engine/state.h"
-#include "runtime/forces/forces.h"
 #include "runtime/forces/link_forces.h"
-#include "runtime/forces/propellant_ledger.h"
+#include "tests/support/plain_vehicle.h"
 
 namespace twincraft::test {
 
@@ -22,9 +19,8 @@ struct SizedRates : BookRates {
   double torque_size = 0.0;                       // [N m]
 };
 
-class PlainBooks {
+class PlainBooks : PlainVehicle {
  public:
-  /// @param model  outlives it
   explicit PlainBooks(const Model& model);
 
   void hold(const Inputs& inputs);
@@ -38,21 +34,14 @@ class PlainBooks {
     Vector3d v_CB_B = Vector3d::Zero();  // [m/s] with the velocity of B taken as zero
   };
 
-  void move_to(double time, const State& x);
   Center center() const;
   void add_inner_power(const State& x, SizedRates& rates) const;
   void add_fall(const State& x, const Center& center, SizedRates& rates) const;
   void add_forces(double time, const State& x, const Center& center, SizedRates& rates);
   void add_leaving(const State& x, const Center& center, SizedRates& rates) const;
 
-  const Model& model_;
-  StateLayout layout_;
-  bsm::Tree tree_;
-  PropellantLedger propellant_;
-  ForceModel forces_;
   LinkForces link_forces_;
   Inputs inputs_;
-  bsm::Motion motion_;
   std::vector<Wrench> wrenches_;
 };
 

@@ -5,12 +5,6 @@
 namespace twincraft::test {
 namespace {
 
-std::vector<std::vector<MassElement>> elements_of(const Assembly& assembly) {
-  std::vector<std::vector<MassElement>> elements;
-  for (const Link& link : assembly.links) elements.push_back(link.elements);
-  return elements;
-}
-
 struct Moving {
   double mass;
   Vector3d r_EB, v_E, spin;
@@ -29,23 +23,11 @@ Moving moving(const Elements::Placed& element, const bsm::Motion& motion) {
 
 }  // namespace
 
-PlainObservation::PlainObservation(const Model& model)
-    : layout_{model.engines.attitude, static_cast<int>(model.assembly.links.size()) - 1,
-              static_cast<int>(model.assembly.rotors.size())},
-      tree_(bsm::prepare(model.assembly)),
-      propellant_(model.tanks),
-      elements_(elements_of(model.assembly), [](const MassElement&) { return true; }),
-      forces_(model, model.gravity.bsm, elements_of(model.assembly), FieldFrame::kFalling),
-      motion_(bsm::at_rest(tree_)) {}
-
 SizedObservation PlainObservation::observe(double time, std::span<const double> state) {
-  const std::span<const double> shares = propellant_.shares(time);
-  elements_.set_shares(shares);
-  forces_.set_shares(shares);
   SizedObservation seen;
   unpack(state, layout_, seen);
   const Matrix3d dcm_NB = seen.q_BN.toRotationMatrix();
-  bsm::move_links(tree_, seen.joint_position, seen.joint_rate, seen.omega_BN_B, motion_);
+  move_to(time, seen);
 
   seen.time = time;
   add_elements(seen);

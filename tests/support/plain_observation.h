@@ -1,15 +1,12 @@
-// What is observed of a vehicle, in plain doubles and by another way than the engine's: every link
-// is moved in its own axes, and every element summed up by itself. What observers are held against.
+// What is observed of a vehicle, in plain doubles: every element is summed up by itself. What
+// observers are held against.
 // Used by tests/runtime/observer_test.cpp.
 #pragma once
 
 #include <span>
 
-#include "runtime/bsm/motion.h"
 #include "runtime/engine/observation.h"
-#include "runtime/engine/state.h"
-#include "runtime/forces/forces.h"
-#include "runtime/forces/propellant_ledger.h"
+#include "tests/support/plain_vehicle.h"
 
 namespace twincraft::test {
 
@@ -18,24 +15,17 @@ struct SizedObservation : Observation {
   double own_kinetic_size = 0.0;  // [J]
 };
 
-class PlainObservation {
+class PlainObservation : PlainVehicle {
  public:
-  explicit PlainObservation(const Model& model);
+  explicit PlainObservation(const Model& model) : PlainVehicle(model) {}
 
-  void hold(const Inputs& inputs) { propellant_.hold(inputs); }
+  using PlainVehicle::hold;
   SizedObservation observe(double time, std::span<const double> state);
 
  private:
   void add_elements(SizedObservation& seen) const;
   void add_rotors(SizedObservation& seen) const;
   double springs(const Observation& seen) const;  // [J]
-
-  StateLayout layout_;
-  bsm::Tree tree_;
-  PropellantLedger propellant_;
-  Elements elements_;
-  ForceModel forces_;
-  bsm::Motion motion_;
 };
 
 }  // namespace twincraft::test
