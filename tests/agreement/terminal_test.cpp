@@ -56,7 +56,7 @@ struct Program {
   std::vector<std::string> first;  // arguments before all others
 };
 
-const std::vector<Program> kPrograms{{"sccompile", SCCOMPILE, {}},
+const std::vector<Program> kPrograms{{"sccompile", TWINCRAFT_SCCOMPILE, {}},
                                      {"scsim", TWINCRAFT_SCSIM, {}},
                                      {"attribute", TWINCRAFT_SCSIM, {"attribute"}}};
 
@@ -201,7 +201,7 @@ std::string said_on_terminal(const char* program, const std::vector<std::string>
 TEST(TerminalWithColour, ShowsTheEscapesOfANameAndKeepsItsOwn) {
   const TemporaryFolder folder;
   const std::string spec = folder.write("a\x1b[35mb.yaml", "format: spacecraft/1\nname: x\n");
-  for (const char* program : {SCCOMPILE, TWINCRAFT_SCSIM}) {
+  for (const char* program : {TWINCRAFT_SCCOMPILE, TWINCRAFT_SCSIM}) {
     const std::string said = said_on_terminal(program, {spec});
     EXPECT_THAT(said, HasSubstr("a\\x1b[35mb.yaml"));
     EXPECT_THAT(said, Not(HasSubstr("\x1b[35m")));
@@ -221,7 +221,8 @@ TEST(TerminalWithColour, GetsNoControlCharacterOutOfAResult) {
                                         "b\n"
                                         "hub: {mass: 600, inertia: [400, 380, 360]}\n");
   for (const char* target : {"resolved", "mjcf", "bsm", "dot"}) {
-    const std::string said = said_on_terminal(SCCOMPILE, {spec, "--emit", target, "-o", "-"});
+    const std::string said =
+        said_on_terminal(TWINCRAFT_SCCOMPILE, {spec, "--emit", target, "-o", "-"});
     EXPECT_THAT(said, Not(HasSubstr("\xc2\x85"))) << target;
   }
 }

@@ -27,7 +27,7 @@ using Arguments = std::vector<std::string>;
 /// From the root of the repository, unless `input` says otherwise.
 ProgramResult sccompile(const Arguments& arguments, ProgramInput input = {}) {
   if (input.folder.empty()) input.folder = TWINCRAFT_ROOT;
-  return test::run_program(SCCOMPILE, arguments, input);
+  return test::run_program(TWINCRAFT_SCCOMPILE, arguments, input);
 }
 
 class Sccompile : public testing::Test {

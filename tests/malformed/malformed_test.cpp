@@ -46,7 +46,7 @@ std::string said_about(const Fault& fault) {
   if (std::ranges::find(arguments, "--emit") == arguments.end())
     arguments.insert(arguments.end(), {"--emit", "bsm"});
   const test::ProgramResult run =
-      test::run_program(SCCOMPILE, arguments, {.folder = Fault::folder()});
+      test::run_program(TWINCRAFT_SCCOMPILE, arguments, {.folder = Fault::folder()});
   return run.err + "exit " + std::to_string(run.exit_code) + "\n";
 }
 

@@ -9,12 +9,14 @@
 #include "runtime/report/page/campaign_data.h"
 #include "runtime/report/page/document.h"
 #include "tests/runtime/handmade_campaign_report.h"
+#include "tests/support/count_of.h"
 
 namespace twincraft {
 namespace {
 
 using nlohmann::json;
 using test::campaign_report;
+using test::count_of;
 using testing::HasSubstr;
 using testing::Not;
 using testing::UnorderedElementsAre;
@@ -155,13 +157,6 @@ CampaignReport hostile_report() {
   report.campaign.remarks = {kHostile};
   report.settings = [](std::size_t) { return std::vector<std::string>{kHostile}; };
   return report;
-}
-
-std::size_t count_of(const std::string& text, std::string_view what) {
-  std::size_t count = 0;
-  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1))
-    ++count;
-  return count;
 }
 
 TEST(CampaignPage, ShowsHostileNamesAsText) {

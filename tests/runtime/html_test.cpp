@@ -17,11 +17,13 @@
 #include "runtime/report/page/page_series.h"
 #include "runtime/report/page/replay_data.h"
 #include "tests/runtime/handmade.h"
+#include "tests/support/count_of.h"
 
 namespace twincraft {
 namespace {
 
 using nlohmann::json;
+using test::count_of;
 using testing::Each;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -217,13 +219,6 @@ Report hostile_report() {
   for (Link& link : bundle.model.assembly.links) link.name = hostile;
   report.members[0].settings = {{hostile, hostile}};
   return report;
-}
-
-std::size_t count_of(const std::string& text, std::string_view what) {
-  std::size_t count = 0;
-  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1))
-    ++count;
-  return count;
 }
 
 TEST(Document, ShowsHostileNamesAsText) {
