@@ -3,6 +3,7 @@
 // Tested by tests/runtime/books_test.cpp.
 #pragma once
 
+#include "runtime/bsm/limb_books.h"
 #include "runtime/bsm/vehicle.h"
 
 namespace twincraft::bsm::TWINCRAFT_KERNEL {

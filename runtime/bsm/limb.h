@@ -152,100 +152,24 @@ class Limb {
     }
   }
 
-  // For the books, after a derivative at the same state.
+  // For the books, after a derivative at the same state: in limb_books.h.
 
   /// Of efforts, motors and dampers [W].
-  S inner_power(const Number<H>* state) const {
-    S power(0.0);
-    for (std::size_t i = 0; i < links_.size(); ++i) {
-      const Link& link = links_[i];
-      const S& q_dot = motions_[i].q_dot;
-      power += (link.effort - damping(link) * q_dot) * q_dot;
-      for (const RotorOn<H, S>& rotor : link.rotors) power += rotor.power(state);
-    }
-    for (const Chain<H, S>& chain : chains_) power += chain.inner_power(state);
-    return power;
-  }
+  S inner_power(const Number<H>* state) const;
   /// The velocities that move() leaves out. All that follows needs them.
   void trace(const Number<H>*) {
     for (std::size_t i = 0; i < links_.size(); ++i) set_velocity(i);
   }
   // Seen from the hub's axes, in which the links' own velocities are not.
-  void add_motion(MassMotion<S>& sum) const {
-    MassMotion<S> own;
-    for (std::size_t i = 0; i < links_.size(); ++i) {
-      const Motion& m = motions_[i];
-      own.add_at(links_[i].mass.mass, m.at.r_LB, m.at.v_LB);
-      own.moment.moment += m.moment;
-      own.momentum += cross(m.at.omega, m.moment);
-    }
-    for (const Chain<H, S>& chain : chains_) {
-      MassMotion<S> of_chain = chain.motion();
-      of_chain.carry(mount(chain.mount()));
-      own += of_chain;
-    }
-    own.momentum -= cross(hub_.omega, own.moment.moment);
-    sum += own;
-  }
+  void add_motion(MassMotion<S>& sum) const;
   /// What is held, and what follows the motion. @param r_CB  as of contribute()
-  void add_loads(const Vec<S>* r_CB, Outside<S>& sum) const {
-    Outside<S> own;
-    for (std::size_t i = 0; i < links_.size(); ++i) {
-      const MountMotion<S>& at = motions_[i].at;
-      const Mat<S> dcm = dcm_WL(i);
-      Pull<S> pull{dcm * links_[i].held.force, dcm * links_[i].held.torque};
-      if (is_watched_) pull.add(motions_[i].pushed);
-      if (r_CB != nullptr) pull.add(dcm * links_[i].held_at_center, *r_CB - at.r_LB);
-      own.add(pull, at);
-    }
-    add_seen_from_hub(own, sum);
-  }
-  void add_gravity(const Field<S>& field, Outside<S>& sum) const {
-    Outside<S> own;
-    for (std::size_t i = 0; i < links_.size(); ++i) {
-      const MountMotion<S>& at = motions_[i].at;
-      for (const ElementNow<S>& element : links_[i].elements) {
-        const Vec<S> r_EL = at.dcm_WL * element.r_EL;
-        const Vec<S> place = at.r_LB + r_EL;
-        Pull<S> pull;
-        pull.add(element.mass * field.difference(place), r_EL);
-        own.add(pull, at);
-        if (field.has_gradient)
-          own.add_turn(field.gradient_torque(place, element.I.turned(at.dcm_WL)), at.omega);
-      }
-    }
-    for (const Chain<H, S>& chain : chains_) {
-      Outside<S> on_chain = chain.gravity();
-      on_chain.carry(mount(chain.mount()));
-      own += on_chain;
-    }
-    add_seen_from_hub(own, sum);
-  }
+  void add_loads(const Vec<S>* r_CB, Outside<S>& sum) const;
+  void add_gravity(const Field<S>& field, Outside<S>& sum) const;
   /// Of mass that leaves; the hub's rotation is in it.
-  void add_leaving(const CenterMotion<S>& center, Leaving<S>& sum) const {
-    for (const DrainingLink& draining : draining_) {
-      const MountMotion<S>& at = motions_[draining.link].at;
-      sum.add(draining.drain.mass_rate(), at.dcm_WL, at.omega, at.r_LB + center.r_BC,
-              at.v_LB + center.v_BC());
-    }
-  }
-  void add_leaving_moment(Moment<S>& sum) const {
-    for (const DrainingLink& draining : draining_) {
-      const MountMotion<S>& at = motions_[draining.link].at;
-      const LinkMass<S>& rate = draining.drain.mass_rate();
-      sum += {rate.mass, rate.mass * at.r_LB + at.dcm_WL * rate.moment};
-    }
-  }
+  void add_leaving(const CenterMotion<S>& center, Leaving<S>& sum) const;
+  void add_leaving_moment(Moment<S>& sum) const;
   /// See lifted().
-  void add_lifted(const Field<S>& field, Power<S>& sum) const {
-    for (const DrainingLink& draining : draining_) {
-      const MountMotion<S>& at = motions_[draining.link].at;
-      const std::vector<ElementNow<S>>& elements = links_[draining.link].elements;
-      for (std::size_t e = 0; e < elements.size(); ++e)
-        sum.power +=
-            lifted(draining.drain.element_rate(e), at.r_LB + at.dcm_WL * elements[e].r_EL, field);
-    }
-  }
+  void add_lifted(const Field<S>& field, Power<S>& sum) const;
 
  private:
   struct Link {
@@ -417,10 +341,7 @@ class Limb {
     for (RotorOn<H, S>& rotor : links_[i].rotors) rotor.move(state, m.at);
   }
 
-  void add_seen_from_hub(Outside<S>& own, Outside<S>& sum) const {
-    own.power -= dot(hub_.omega, own.pull.torque);
-    sum += own;
-  }
+  void add_seen_from_hub(Outside<S>& own, Outside<S>& sum) const;
 
   S damping(const Link& link) const {
     if (link.damped_by_cosine_of < 0) return link.damping;
