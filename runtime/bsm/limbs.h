@@ -7,7 +7,7 @@
 
 #include "runtime/bsm/bob.h"
 #include "runtime/bsm/chain_limb.h"
-#include "runtime/bsm/limb.h"
+#include "runtime/bsm/limb_build.h"
 #include "runtime/bsm/point.h"
 
 namespace twincraft::bsm::TWINCRAFT_KERNEL {
