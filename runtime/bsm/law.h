@@ -10,7 +10,7 @@
 //
 //   leaf -> hub   eliminate the joint's own acceleration from s.n = u (hinge) or s.f = u (slide),
 //                 move what is left to the parent's origin, where it is added       (limb.h)
-//   hub           solve 6x6: Schur complement of M, two 3x3 blocks                 (vehicle.h)
+//   hub           solve 6x6: Schur complement of M, two 3x3 blocks                 (hub_equation.h)
 //   hub -> leaf   each joint recovers its acceleration from its parent's
 //
 // One effector on the hub gives the published contributions A, B, C, D, vT, vR. Tails of the tree

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "runtime/bsm/charts.h"
+#include "runtime/bsm/hub_equation.h"
 #include "runtime/bsm/kernel.h"
 #include "runtime/bsm/limbs.h"
 #include "runtime/bsm/push.h"
@@ -124,30 +125,6 @@ class Vehicle {
     derivative_steady(time, state, rate);
   }
 
-  /// The hub's accelerations, in its axes; of B in the falling frame.
-  struct HubMotion {
-    Vec<H> omega_dot, a;
-  };
-  /// The hub equation's matrix, factored: Schur complement of M.
-  struct HubFactors {
-    /// In place: a copy would be read, wider than it was written, while it is on its way to memory.
-    [[gnu::always_inline]] void factor(const Law<H>& hub) {
-      M = Ldl<H>(hub.M);
-      coupling = {M.solve(hub.H.row_x()), M.solve(hub.H.row_y()), M.solve(hub.H.row_z())};
-      const Mat<H>& c = coupling;  // D - C A^-1 B, symmetric
-      schur = Ldl<H>({hub.J.xx - dot(hub.H.row_x(), c.x), hub.J.yy - dot(hub.H.row_y(), c.y),
-                      hub.J.zz - dot(hub.H.row_z(), c.z), hub.J.xy - dot(hub.H.row_x(), c.y),
-                      hub.J.xz - dot(hub.H.row_x(), c.z), hub.J.yz - dot(hub.H.row_y(), c.z)});
-    }
-    [[gnu::always_inline]] HubMotion solve(const Law<H>& hub) const {
-      const Vec<H> omega_dot = schur.solve(transposed(coupling, hub.f0) - hub.n0);
-      return {omega_dot, -M.solve(hub.f0) - coupling * omega_dot};
-    }
-    Ldl<H> M;
-    Mat<H> coupling;  // M^-1 H^T
-    Ldl<H> schur;
-  };
-
   static Vec<H> vector(const Number<H>* state, int at) {
     return {entry<H>(state, at), entry<H>(state, at + 1), entry<H>(state, at + 2)};
   }
@@ -205,11 +182,11 @@ class Vehicle {
     begin_hub_law(omega, rotor_momentum(state, omega));
     if (push_.acts()) push(time, state, omega);
     sum_laws(vector(state, 0));
-    HubMotion hub;
+    HubMotion<H> hub;
     if (is_rigid_) {
       hub = factors_.solve(hub_);
     } else {
-      HubFactors factors;  // not factors_: these stay in registers
+      HubFactors<H> factors;  // not factors_: these stay in registers
       factors.factor(hub_);
       hub = factors.solve(hub_);
     }
@@ -391,7 +368,7 @@ class Vehicle {
   bool turns_alone_ = false;   // see turn_alone()
   bool has_elements_ = false;  // that may feel another field than B does
   bool pulls_on_hub_ = false;  // some element of the hub does, or feels a gradient
-  HubFactors factors_;         // of a rigid hub
+  HubFactors<H> factors_;      // of a rigid hub
   Sym<H> inverse_inertia_;     // of a rigid hub, about its centre of mass
   Law<H> hub_alone_, hub_;
   Mat<H> dcm_NB_;    // unless it turns alone; so is
