@@ -34,10 +34,7 @@ struct Law {
   Mat<S> H;       // [kg m]
   Vec<S> n0, f0;  // [N m], [N]
 
-  /// All of them, one after another.
   static constexpr int kNumbers = 6 + 6 + 9 + 3 + 3;
-  S* numbers() { return &J.xx; }
-  const S* numbers() const { return &J.xx; }
 
   /// Add a child's law, or begin with it where it is the first. It moves from the child's origin to
   /// the parent's, d away: a' = a_P + omegaDot_P x d and n_P = n + d x f give H_P = H + d~ M and
@@ -82,6 +79,27 @@ struct Law {
     j.yz = j.yz - half.x * both.z;
     put(J, j);
   }
+
+  /// Add those in the lanes of another, which are about the same origin: see gathered(). Two
+  /// neighbours at once: half of the loads and stores.
+  template <bool kIsFull, class Lanes>
+  void add_gathered(const Law<Lanes>& law) {
+    S* to = numbers();
+    const Lanes* from = law.numbers();
+    constexpr int kLast = kNumbers - 1;
+    static_assert(kLast % 2 == 0);
+#pragma GCC unroll 16
+    for (int i = 0; i < kLast; i += 2) add_two_gathered<kIsFull>(to + i, from[i], from[i + 1]);
+    to[kLast] += gathered<S, Lanes>(from[kLast], kIsFull);
+  }
+
+ private:
+  template <KernelScalar>
+  friend struct Law;
+
+  /// All of them, one after another.
+  S* numbers() { return &J.xx; }
+  const S* numbers() const { return &J.xx; }
 };
 static_assert(sizeof(Law<double>) == Law<double>::kNumbers * sizeof(double));
 

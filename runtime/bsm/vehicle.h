@@ -336,17 +336,8 @@ class Vehicle {
         [&](auto& group) { add(group.limb.contribute(field, r_CB), group.is_full); });
   }
 
-  void add(const Law<S>& law, bool is_full) { is_full ? add<true>(law) : add<false>(law); }
-  /// Two neighbours at once: half of the loads and stores.
-  template <bool kIsFull>
-  void add(const Law<S>& law) {
-    H* to = hub_.numbers();
-    const S* from = law.numbers();
-    constexpr int kLast = Law<S>::kNumbers - 1;
-    static_assert(kLast % 2 == 0);
-#pragma GCC unroll 16
-    for (int i = 0; i < kLast; i += 2) add_two_gathered<kIsFull>(to + i, from[i], from[i + 1]);
-    to[kLast] += gathered<H, S>(from[kLast], kIsFull);
+  void add(const Law<S>& law, bool is_full) {
+    is_full ? hub_.template add_gathered<true>(law) : hub_.template add_gathered<false>(law);
   }
 
   const Plan& plan_;  // of lane 0, for what all share
