@@ -86,7 +86,7 @@ int merge_command(int argc, char** argv) {
   CommandLine line{"Makes one table and report of the shards of a campaign.", "scsim merge"};
   CommonOptions options;
   bool netcdf = false;
-  line.add_text("DIR", options.folder, "DIR", "what the shards were told to write into");
+  line.add_text("DIR", options.folder, "DIR", "folder that the shards wrote into");
   line.add_switch("--netcdf", netcdf, "also write kept trajectories as netCDF-4");
   describe_instructions(line, options);
   describe_jobs(line, options, "kept members at a time (default: all cores)");

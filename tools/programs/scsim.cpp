@@ -41,8 +41,9 @@ void describe_run(CommandLine& line, Options& options) {
                   "timed trials per engine (default 5; 0: no timing)");
   line.add_switch("--no-timing", options.no_timing, "same as --trials 0");
   describe_instructions(line, options);
-  describe_jobs(line, options,
-                "members of a study at a time (default: all cores); timed ones run alone");
+  describe_jobs(
+      line, options,
+      "members of a study or campaign at a time (default: all cores); timed ones run alone");
 }
 
 void describe(CommandLine& line, Options& options) {
