@@ -59,11 +59,17 @@ void Judge::advise(Resolution& resolution) const {
     return;
   }
   const double advised = std::min({advised_, modal_.advised_step(), step_});
-  resolution.advised_step = stable_until_empty(nice_step(advised < step_ ? advised : 0.5 * step_));
-  if (!resolution.advised_step) return;
-  if (order() >= 4 || *resolution.advised_step > 0.1 * step_) return;
-  resolution.advised_rk4_step = nice_step(std::min(step_, modal_.advised_step_of(kRk4)));
+  const std::optional<double> step =
+      stable_until_empty(nice_step(advised < step_ ? advised : 0.5 * step_));
+  if (!step) return;
+  if (is_of_use(*step)) resolution.advised_step = step;
+  if (order() >= 4 || *step > 0.1 * step_) return;
+  const double of_rk4 = nice_step(std::min(step_, modal_.advised_step_of(kRk4)));
+  if (is_of_use(of_rk4)) resolution.advised_rk4_step = of_rk4;
 }
+
+/// A run at this step [s] ends in a time that somebody waits for.
+bool Judge::is_of_use(double step) const { return model_.simulation.duration < kMostSteps * step; }
 
 /// What a draining tank carries becomes faster the nearer a step comes to the end of the burn: a
 /// shorter step meets faster modes.
@@ -71,7 +77,7 @@ void Judge::advise(Resolution& resolution) const {
 std::optional<double> Judge::stable_until_empty(double step) const {
   if (!drains(model_)) return step;
   Model finer = model_;
-  while (model_.simulation.duration < kMostSteps * step) {
+  while (is_of_use(step)) {
     finer.simulation.step = step;
     const Inspection inspection = plan_inspection(finer);
     const std::vector<Observation> instants = foreseen(finer, inspection);
@@ -95,7 +101,10 @@ std::string Judge::cure(const Resolution& resolution) const {
                        step_words(*resolution.advised_rk4_step));
   if (resolution.advised_step)
     return fmt::format("--step '{}' resolves it", step_words(*resolution.advised_step));
-  return "No step of use resolves a tank that empties: end its burn with some propellant left";
+  if (drains(model_))
+    return "No step of use resolves a tank that empties: end its burn with some propellant left";
+  return fmt::format("No step of use resolves it: the run would take more than {:.0e} steps",
+                     kMostSteps);
 }
 
 Resolution Judge::conclude() {

@@ -65,6 +65,7 @@ class Judge {
   Method method() const { return model_.simulation.method; }
   int order() const { return tableau_of(method()).order; }
   void advise(Resolution& resolution) const;
+  bool is_of_use(double step) const;
   std::optional<double> stable_until_empty(double step) const;
   std::optional<Finding> pole_at_the_end() const;
   std::optional<Finding> fastest_at_the_end();

@@ -237,6 +237,29 @@ TEST_F(Failure, SaysWhereNoStepResolvesATankThatEmpties) {
   EXPECT_TRUE(resolution["advised_step_s"].is_null());
 }
 
+TEST_F(Failure, SaysWhereNoStepIsOfUse) {
+  const auto spring = [](std::string_view integrator, std::string_view joint, double duration) {
+    return fmt::format(
+        "format: spacecraft/1\nname: stiff\nhub: {{mass: 100 kg, inertia: [10, 12, 15]}}\n"
+        "bodies: [{{name: b, joint: {{type: revolute, axis: [1, 0, 0], angle: 0.1, {}}}, mass: 5, "
+        "inertia: [1, 1, 1]}}]\n"
+        "simulation: {{integrator: {}, step: 0.1 s, duration: {} s}}\n",
+        joint, integrator, duration);
+  };
+  const auto judged = [&](const std::string& spec) {
+    return run(spec)["members"][0]["resolution"];
+  };
+  const json stiff = judged(spring("rk4", "stiffness: 1.0e30, damping: 10", 20.0));
+  EXPECT_EQ(last.exit_code, 4) << last.out;
+  EXPECT_THAT(stiff["reasons"][0], HasSubstr(". No step of use resolves it: the run would take "
+                                             "more than 1e+09 steps"));
+  EXPECT_TRUE(stiff["advised_step_s"].is_null());
+  // Euler needs steps that rk4 does not.
+  const json by_euler = judged(spring("euler", "stiffness: 100", 1.0e5));
+  EXPECT_THAT(by_euler["reasons"][0], HasSubstr("--integrator rk4 --step"));
+  EXPECT_TRUE(by_euler["advised_step_s"].is_null());
+}
+
 TEST_F(Failure, NamesThePoleOfAPendulum) {
   const json resolution = run(R"(format: spacecraft/1
 name: pole
