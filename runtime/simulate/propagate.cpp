@@ -39,9 +39,9 @@ class RecordedRun::Recording {
         flight_(engine, model, {.keeps_books = true}),
         due_(model, flight_.tolerance()),
         progress_(options_.progress),
-        last_(std::make_unique<Sample>()) {
+        last_(std::make_unique<Sample>(engine.layout())) {
     for (std::size_t i = 0; i < engine.summed_at_once(); ++i)
-      waiting_.push_back(std::make_unique<Sample>());
+      waiting_.push_back(std::make_unique<Sample>(engine.layout()));
     guarded([this] {
       record();
       capture_instants();
@@ -71,6 +71,12 @@ class RecordedRun::Recording {
 
  private:
   struct Sample {
+    /// With all the room that it will ever need: a step takes nothing from the heap.
+    explicit Sample(const StateLayout& layout) {
+      seen.joint_position.resize(static_cast<std::size_t>(layout.joints));
+      seen.joint_rate.resize(static_cast<std::size_t>(layout.joints));
+      seen.wheel_rate.resize(static_cast<std::size_t>(layout.wheels));
+    }
     Observation seen;
     Books books;
   };
