@@ -128,18 +128,11 @@ class Bookkeeper {
     const Field<S> field = vehicle_.spread(vehicle_.field_);
     Outside<H> outside =
         of_limbs<Outside>([&](const auto& limb, Outside<S>& sum) { limb.add_gravity(field, sum); });
-    if (vehicle_.pulls_on_hub_) add_gravity_hub(outside);
-    return outside;
-  }
-  void add_gravity_hub(Outside<H>& sum) const {
-    const Field<H>& field = vehicle_.field_;
-    for (const ElementNow<H>& element : vehicle_.elements_) {
-      sum.pull.add(element.mass * field.difference(element.r_EL), element.r_EL);
-      if (!field.has_gradient) continue;
-      const Vec<H> torque = field.gradient_torque(element.r_EL, element.I);
-      sum.pull.torque += torque;
-      sum.turn_power += dot(torque, omega_);
+    if (vehicle_.pulls_on_hub_) {
+      outside.pull.add(vehicle_.pulled_hub_);
+      outside.turn_power += dot(vehicle_.turned_hub_, omega_);
     }
+    return outside;
   }
 
   Leaving<H> leaving(const CenterMotion<H>& center) const {

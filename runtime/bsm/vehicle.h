@@ -311,12 +311,17 @@ class Vehicle {
   }
 
   void pull_on_hub(const Field<H>& field) {
+    Pull<H> pull;
+    Vec<H> turn;
     for (const ElementNow<H>& element : elements_) {
-      const Vec<H> force = element.mass * field.difference(element.r_EL);
-      hub_.f0 -= force;
-      hub_.n0 -= cross(element.r_EL, force);
-      if (field.has_gradient) hub_.n0 -= field.gradient_torque(element.r_EL, element.I);
+      pull.add(element.mass * field.difference(element.r_EL), element.r_EL);
+      if (field.has_gradient) turn += field.gradient_torque(element.r_EL, element.I);
     }
+    pull.torque += turn;
+    hub_.f0 -= pull.force;
+    hub_.n0 -= pull.torque;
+    pulled_hub_ = pull;
+    turned_hub_ = turn;
   }
 
   void add_limbs(const Field<H>* field, const Vec<H>* r_CB) {
@@ -362,11 +367,13 @@ class Vehicle {
   HubFactors<H> factors_;      // of a rigid hub
   Sym<H> inverse_inertia_;     // of a rigid hub, about its centre of mass
   Law<H> hub_alone_, hub_;
-  Mat<H> dcm_NB_;    // unless it turns alone; so is
-  Vec<H> g_N_;       // [m/s^2] the common acceleration of the falling frame
-  Field<H> field_;   // in hub axes, where elements or books ask for it
-  Push<H, S> push_;  // of forces that follow the motion of links
-  Pull<H> pushed_;   // of them, on the hub
+  Mat<H> dcm_NB_;       // unless it turns alone; so is
+  Vec<H> g_N_;          // [m/s^2] the common acceleration of the falling frame
+  Pull<H> pulled_hub_;  // by gravity, beyond what B feels, where elements of it do
+  Vec<H> turned_hub_;   // [N m] of that the gradient's torque alone
+  Field<H> field_;      // in hub axes, where elements or books ask for it
+  Push<H, S> push_;     // of forces that follow the motion of links
+  Pull<H> pushed_;      // of them, on the hub
 };
 
 }  // namespace twincraft::bsm::TWINCRAFT_KERNEL
