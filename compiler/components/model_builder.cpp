@@ -223,6 +223,7 @@ Model ModelBuilder::build() && {
   carry_wheel_tensors();
   form_streams();
   refuse_deep_chains();
+  refuse_many_coordinates();
   return std::move(model_);
 }
 
@@ -283,6 +284,14 @@ void ModelBuilder::refuse_deep_chains() {
   model_.mujoco_refusal = fmt::format(
       "a chain of {} bodies below the hub is deeper than the {} that MuJoCo's XML reader allows",
       depth, kMaximumTreeDepth);
+}
+
+void ModelBuilder::refuse_many_coordinates() {
+  const int coordinates = model_.degrees_of_freedom() - 6;
+  if (coordinates <= kMaximumTreeCoordinates || !model_.mujoco_refusal.empty()) return;
+  model_.mujoco_refusal =
+      fmt::format("{} joints and wheels are more than the {} that MuJoCo's XML reader allows",
+                  coordinates, kMaximumTreeCoordinates);
 }
 
 }  // namespace twincraft

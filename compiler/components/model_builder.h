@@ -40,6 +40,9 @@ struct Mount {
 /// Bodies nested below the hub that MuJoCo's XML reader still loads: tinyxml2 stops at an element
 /// depth of 100, and mujoco, worldbody, hub and the last body's joint take the others.
 inline constexpr int kMaximumTreeDepth = 95;
+/// Joints and wheels that MuJoCo's XML reader still loads: a keyframe has at most 1000 numbers of
+/// position, and the hub has seven.
+inline constexpr int kMaximumTreeCoordinates = 993;
 
 class ModelBuilder {
  public:
@@ -125,6 +128,7 @@ class ModelBuilder {
   void take_tokens_out();
   void carry_wheel_tensors();
   void refuse_deep_chains();
+  void refuse_many_coordinates();
 
   Model model_;
   std::map<std::string, Mount> mounts_;

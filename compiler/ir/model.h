@@ -159,7 +159,7 @@ struct Model {
   Agreement agreement;
   std::vector<ReferenceKind> references;
   StoredTruth stored;  // states only when the references name it
-  // Why the tree cannot be loaded by MuJoCo (a chain too deep); empty when it can.
+  // Why the tree cannot be loaded by MuJoCo (too deep, or too large); empty when it can.
   std::string mujoco_refusal;
 
   /// Velocity coordinates: 6 + joints + wheels; 3 of a point mass.

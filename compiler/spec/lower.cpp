@@ -61,6 +61,17 @@ void warn_of_depth(const Spec& spec, const Model& model, Diagnostics& diagnostic
   }
 }
 
+/// At the component that is too many.
+void warn_of_size(const Spec& spec, Diagnostics& diagnostics) {
+  const Size size = size_of(spec, kMaximumTreeCoordinates);
+  if (!size.too_many_at) return;
+  diagnostics.warning(
+      Code::kTooLargeForMujoco, *size.too_many_at,
+      fmt::format("here the vehicle gets more than {} joints and wheels, as many as MuJoCo loads: "
+                  "the analytic engine goes on alone",
+                  kMaximumTreeCoordinates));
+}
+
 /// At the word of every reference that is not this vehicle's motion.
 void check_references(const Spec& spec, const Model& model, Diagnostics& diagnostics) {
   for (std::size_t i = 0; i < spec.references.size(); ++i) {
@@ -80,6 +91,7 @@ std::optional<Model> lower(const Spec& spec, Diagnostics& diagnostics) {
   check_what_tokens_leave(spec, model, diagnostics);
   if (diagnostics.error_count() != errors_before) return std::nullopt;
   warn_of_depth(spec, model, diagnostics);
+  warn_of_size(spec, diagnostics);
 
   model.name = spec.name;
   model.description = spec.description;

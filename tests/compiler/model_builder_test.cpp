@@ -185,6 +185,12 @@ TEST(ModelBuilder, RefusesAChainThatMujocoCannotLoad) {
   EXPECT_NE(chain(96).build().mujoco_refusal.find("96 bodies"), std::string::npos);
 }
 
+TEST(ModelBuilder, RefusesMoreCoordinatesThanMujocoCanLoad) {
+  EXPECT_EQ(chain(993, 90).build().mujoco_refusal, "");
+  EXPECT_NE(chain(994, 90).build().mujoco_refusal.find("994 joints and wheels"),
+            std::string::npos);
+}
+
 TEST(ModelBuilder, InsistsOnAMassBeforeATensorWithoutOne) {
   ModelBuilder builder{EngineControls{}};
   builder.add_hub();

@@ -88,14 +88,15 @@ inline ModelBuilder bracket_on_boom(EngineControls controls = {}) {
   return builder;
 }
 
-/// A chain of hinged links, nothing else.
-inline ModelBuilder chain(int links) {
+/// Chains of hinged links on the hub, none longer than `longest`; nothing else.
+inline ModelBuilder chain(int links, int longest = 1000) {
   ModelBuilder builder{EngineControls{}};
   builder.add_hub();
   builder.add_mass({}, lump("hub", 600.0, Vector3d::Zero(), {400.0, 380.0, 360.0}));
   Mount mount;
   for (int i = 1; i <= links; ++i) {
     const std::string name = "wing." + std::to_string(i);
+    if (i % longest == 1) mount = {};
     mount = builder.add_link(mount, name, hinge({0.1, 0.0, 0.0}, {0.0, 1.0, 0.0}));
     builder.add_mass(mount, lump(name, 0.5, {0.05, 0.0, 0.0}, {0.001, 0.002, 0.0025}));
     builder.add_coordinate(Coordinate::Kind::kPanel, name, mount.link, 0.0, 0.0);
