@@ -187,8 +187,7 @@ TEST(ModelBuilder, RefusesAChainThatMujocoCannotLoad) {
 
 TEST(ModelBuilder, RefusesMoreCoordinatesThanMujocoCanLoad) {
   EXPECT_EQ(chain(993, 90).build().mujoco_refusal, "");
-  EXPECT_NE(chain(994, 90).build().mujoco_refusal.find("994 joints and wheels"),
-            std::string::npos);
+  EXPECT_NE(chain(994, 90).build().mujoco_refusal.find("994 joints and wheels"), std::string::npos);
 }
 
 TEST(ModelBuilder, InsistsOnAMassBeforeATensorWithoutOne) {
