@@ -320,7 +320,7 @@ class Vehicle {
     pull.torque += turn;
     hub_.f0 -= pull.force;
     hub_.n0 -= pull.torque;
-    pulled_hub_ = pull;
+    pulled_hub_ = {pull.force, pull.torque};
     turned_hub_ = turn;
   }
 
