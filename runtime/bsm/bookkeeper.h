@@ -58,8 +58,9 @@ class Bookkeeper {
   }
 
   void book_changes(const MassMotion<H>& mass, BooksOf<H>& books) {
-    const H share = H(-1.0) / mass.moment.mass;
-    const CenterMotion<H> center{omega_, share * mass.moment.moment, share * mass.momentum};
+    const H minus_inverse = H(-1.0) / mass.moment.mass;
+    const CenterMotion<H> center{omega_, minus_inverse * mass.moment.moment,
+                                 minus_inverse * mass.momentum};
     if (vehicle_.turns_alone_) vehicle_.dcm_NB_ = attitude();
     const Mat<H>& dcm_NB = vehicle_.dcm_NB_;
     Own<H> own;

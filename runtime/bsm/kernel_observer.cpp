@@ -218,10 +218,10 @@ class LaneObserver final : public Observer {
       moment += now.mass * now.r_EB;
       momentum += now.mass * now.v_E;
     }
-    const S share = S(1.0) / mass;
+    const S inverse_mass = S(1.0) / mass;
     mass_ = mass;
-    r_CB_ = share * moment;
-    v_CB_ = share * momentum;
+    r_CB_ = inverse_mass * moment;
+    v_CB_ = inverse_mass * momentum;
     kinetic_ = spin_energy;
   }
 

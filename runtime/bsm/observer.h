@@ -1,7 +1,6 @@
 // What the analytic engine reports of itself: mass, momenta and energies, once per sample, behind
 // an interface like the kernel's and built for an instruction set. It shares nothing with a step
-// but constants, and takes as many samples at once as the set has lanes. Tested by
-// tests/runtime/observer_test.cpp.
+// but constants, and takes a few samples at once. Tested by tests/runtime/observer_test.cpp.
 #pragma once
 
 #include <memory>
