@@ -35,7 +35,7 @@ class Bob : public Particle<H, S> {
         this->set_idle(l);
       }
     }
-    this->put_mass(mass_);
+    this->put_mass(now_.mass);
   }
 
   void hold(std::size_t l, const LimbPlan& limb, const HeldInputsIn<Number<H>>& held) {
@@ -64,13 +64,13 @@ class Bob : public Particle<H, S> {
     e_ = cosine * ahead + sine * up_;
     t1_ = by_phi.cosine * aside_ - by_phi.sine * ahead_;
     t2_ = cosine * up_ - sine * ahead;
-    r_ = r_HB_ + length_ * e_;
+    now_.r = r_HB_ + length_ * e_;
     g_ = cross(r_HB_, e_);
     inverse_reach_ = inverse_length_ / cosine;
 
     const S swing = length_ * cosine * phi_dot, nod = length_ * theta_dot;
-    w_ = swing * t1_ + nod * t2_;
-    a_bias_ = cross(omega, cross(omega, r_) + w_ + w_) - (swing * phi_dot) * ahead -
+    now_.w = swing * t1_ + nod * t2_;
+    a_bias_ = cross(omega, cross(omega, now_.r) + now_.w + now_.w) - (swing * phi_dot) * ahead -
               ((sine + sine) * (nod * phi_dot)) * t1_ - (nod * theta_dot) * e_;
     phi_damping_ = phi_.damping * cosine * cosine;
     f1_ = inverse_reach_ * (phi_.pull(phi) - phi_damping_ * phi_dot);
@@ -78,8 +78,8 @@ class Bob : public Particle<H, S> {
   }
 
   void contribute(const Field<S>* field, const Vec<S>*, Law<S>& law) {
-    if (field != nullptr) a_bias_ -= field->difference(r_);
-    const Vec<S> me = mass_ * e_, mg = mass_ * g_;
+    if (field != nullptr) a_bias_ -= field->difference(now_.r);
+    const Vec<S> me = now_.mass * e_, mg = now_.mass * g_;
     const Vec<S> f0 = dot(e_, a_bias_) * me + f1_ * t1_ + f2_ * t2_;
     law.M += Sym<S>::parallel(me, e_);
     law.J += Sym<S>::parallel(mg, g_);
@@ -87,11 +87,11 @@ class Bob : public Particle<H, S> {
     law.H.y += e_.y * mg;
     law.H.z += e_.z * mg;
     law.f0 += f0;
-    law.n0 += cross(r_, f0);
+    law.n0 += cross(now_.r, f0);
   }
 
   void recover(const Vec<S>& omega_dot_B, const Vec<S>& a_B, Number<H>* rate) const {
-    const Vec<S> a = a_B + cross(omega_dot_B, r_) + a_bias_;
+    const Vec<S> a = a_B + cross(omega_dot_B, now_.r) + a_bias_;
     const S across = inverse_reach_ * (inverse_mass_ * f1_ - dot(t1_, a));
     scatter<H, S>(across, rate, phi_.rate);
     scatter<H, S>(inverse_length_ * (inverse_mass_ * f2_ - dot(t2_, a)), rate, theta_.rate);
@@ -107,11 +107,8 @@ class Bob : public Particle<H, S> {
   void add_loads(const Vec<S>*, Outside<S>&) const {}
 
  private:
-  using Base = Particle<H, S>;
-  using Base::inverse_mass_;
-  using Base::mass_;
-  using Base::r_;
-  using Base::w_;
+  using Particle<H, S>::inverse_mass_;
+  using Particle<H, S>::now_;
 
   struct Hinge {
     S stiffness{}, damping{}, rest{}, effort{};

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "runtime/bsm/limb_books.h"
+#include "runtime/bsm/particle_books.h"
 #include "runtime/bsm/vehicle.h"
 
 namespace twincraft::bsm::TWINCRAFT_KERNEL {
@@ -13,18 +14,16 @@ class Bookkeeper {
  public:
   /// @param state  at which the vehicle's derivative() has last been asked
   Bookkeeper(Vehicle<H, S>& vehicle, const Number<H>* state)
-      : vehicle_(vehicle), state_(state), omega_(vehicle.vector(state, vehicle.layout_.omega)) {}
+      : vehicle_(vehicle),
+        particles_(vehicle.limbs_),
+        state_(state),
+        omega_(vehicle.vector(state, vehicle.layout_.omega)) {}
 
   BooksOf<H> books() {
+    if (vehicle_.tanks_.flow()) return books_of_motion<true>();
+    if (falls() || acts()) return books_of_motion<false>();
     BooksOf<H> books;
-    if (falls() || acts() || vehicle_.tanks_.flow()) {
-      const MassMotion<H> mass = motion();
-      books.power = books.own_power = with_rotors(mass.inner_power);
-      if (falls()) books.force_N = mass.moment.mass * fall();
-      if (acts() || vehicle_.tanks_.flow()) book_changes(mass, books);
-    } else {
-      books.power = books.own_power = with_rotors(inner_power());
-    }
+    books.power = books.own_power = with_rotors(inner_power());
     return books;
   }
 
@@ -46,59 +45,71 @@ class Bookkeeper {
         .power;
   }
 
-  /// Lets limbs know their velocities.
-  MassMotion<H> motion() {
-    MassMotion<H> all = of_limbs<MassMotion>([&](auto& limb, MassMotion<S>& sum) {
+  /// @tparam kFlow  mass leaves the tanks
+  template <bool kFlow>
+  BooksOf<H> books_of_motion() {
+    BooksOf<H> books;
+    Change<H> change;
+    const MassMotion<H> mass = motion<kFlow>(change);
+    books.power = books.own_power = with_rotors(mass.inner_power);
+    if (falls()) books.force_N = mass.moment.mass * fall();
+    if (kFlow || acts()) book<kFlow>(change, mass, books);
+    return books;
+  }
+
+  /// Lets limbs know their velocities. @param change  receives what leaves
+  template <bool kFlow>
+  MassMotion<H> motion(Change<H>& change) {
+    MassMotion<H> all;
+    if (vehicle_.limbs_.has_particles()) {
+      Power<S> power{};
+      vehicle_.limbs_.for_each_particle([&](auto& group) {
+        power.power += group.limb.inner_power(state_);
+        group.limb.trace(state_);
+      });
+      if constexpr (kFlow)
+        all = particles_.motion(omega_, change);
+      else
+        all = particles_.motion();
+      all.inner_power = total<true>(power).power;
+    }
+    add_trees<MassMotion>(all, [&](auto& limb, MassMotion<S>& sum) {
       sum.inner_power += limb.inner_power(state_);
       limb.trace(state_);
       limb.add_motion(sum);
     });
+    if constexpr (kFlow)
+      add_trees<Change>(change, [](const auto& limb, Change<S>& sum) { limb.add_leaving(sum); });
     all.moment += {vehicle_.mass_.mass, vehicle_.mass_.moment};
+    if (kFlow && vehicle_.draining_.drains()) change.add(vehicle_.draining_.mass_rate(), omega_);
     return all;
   }
 
-  void book_changes(const MassMotion<H>& mass, BooksOf<H>& books) {
+  /// @param change  of it what leaves; receives all else
+  template <bool kFlow>
+  void book(Change<H>& change, const MassMotion<H>& mass, BooksOf<H>& books) {
     const H minus_inverse = H(-1.0) / mass.moment.mass;
-    const CenterMotion<H> center{omega_, minus_inverse * mass.moment.moment,
-                                 minus_inverse * mass.momentum};
+    const Vec<H> r_BC = minus_inverse * mass.moment.moment;
+    const Vec<H> v_BC = plus_cross(minus_inverse * mass.momentum, omega_, r_BC);
     if (vehicle_.turns_alone_) vehicle_.dcm_NB_ = attitude();
     const Mat<H>& dcm_NB = vehicle_.dcm_NB_;
-    Own<H> own;
-    if (loads_act() || vehicle_.tanks_.flow()) own = book_driving(center, books);
+    if (loads_act()) change.add(loads(r_BC), omega_);
+    if (kFlow || loads_act()) {  // which no potential covers
+      const Vec<H> v_BN_N = vehicle_.vector(state_, 3);
+      const Vec<H> from_B = dcm_NB * change.pull.force;
+      const Vec<H> force_N = from_B + change.leaving.mass * v_BN_N;
+      books.force_N += force_N;
+      books.power += change.power + H(0.5) * dot(from_B + force_N, v_BN_N);
+      if (kFlow && falls()) books.power += lost_potential(r_BC, change.leaving);
+    }
     if (vehicle_.has_elements_) {
       const Outside<H> pulls = gravity();  // differences from that at B
       books.force_N += dcm_NB * pulls.pull.force;
       books.power += pulls.turn_power;
-      own.add(pulls, center);
+      change.add(pulls, omega_);
     }
-    books.own_power += own.power;
-    books.torque_PntC_N = dcm_NB * own.torque_PntC_B;
-  }
-  /// Loads and leaving mass: no potential covers their forces.
-  Own<H> book_driving(const CenterMotion<H>& center, BooksOf<H>& books) const {
-    const Vec<H> v_BC = center.v_BC(), v_BN_N = vehicle_.vector(state_, 3);
-    Own<H> own;
-    Vec<H> force_B{};
-    H lost_mass{};
-    if (loads_act()) {
-      const Outside<H> outside = loads(center);
-      own.set(outside, center);
-      force_B = outside.pull.force;
-    }
-    if (vehicle_.tanks_.flow()) {
-      const Leaving<H> lost = leaving(center);
-      own.power += lost.kinetic;
-      own.torque_PntC_B += lost.H_PntC_B;
-      force_B += lost.momentum - lost.mass * v_BC;
-      lost_mass = lost.mass;
-      if (falls()) books.power += lost_potential(center);
-    }
-    // What C does from B, and then B itself. Of mass that leaves, force_B has what C makes of it.
-    const Vec<H> force_N = vehicle_.dcm_NB_ * force_B, all_N = force_N + lost_mass * v_BN_N;
-    books.power += own.power - dot(force_B + (H(0.5) * lost_mass) * v_BC, v_BC) +
-                   H(0.5) * dot(force_N + all_N, v_BN_N);
-    books.force_N += all_N;
-    return own;
+    books.own_power += change.template power_about<kFlow>(v_BC);
+    books.torque_PntC_N = dcm_NB * change.template torque_about<kFlow>(r_BC, v_BC);
   }
   // What a vehicle that turns alone does not leave behind.
   Vec<H> fall() const {
@@ -112,10 +123,10 @@ class Bookkeeper {
                : Quaternion<H>(state_, Layout::kAttitude).dcm_NB();
   }
 
-  Outside<H> loads(const CenterMotion<H>& center) const {
+  Outside<H> loads(const Vec<H>& r_BC) const {
     Outside<H> outside{vehicle_.held_};
     if (vehicle_.push_.acts()) outside.pull.add(vehicle_.pushed_);
-    const Vec<H> r_CB = -center.r_BC;
+    const Vec<H> r_CB = -r_BC;
     if (vehicle_.acts_at_center_) outside.pull.add(vehicle_.held_at_center_, r_CB);
     if (!vehicle_.acts_on_limbs_ && !vehicle_.push_.acts()) return outside;
     const Vec<S> r_CB_S = vehicle_.spread(r_CB);
@@ -126,9 +137,11 @@ class Bookkeeper {
   }
 
   Outside<H> gravity() const {
+    Outside<H> outside;
+    if (vehicle_.limbs_.has_particles()) outside = particles_.gravity(vehicle_.field_);
     const Field<S> field = vehicle_.spread(vehicle_.field_);
-    Outside<H> outside =
-        of_limbs<Outside>([&](const auto& limb, Outside<S>& sum) { limb.add_gravity(field, sum); });
+    add_trees<Outside>(outside,
+                       [&](const auto& limb, Outside<S>& sum) { limb.add_gravity(field, sum); });
     if (vehicle_.pulls_on_hub_) {
       outside.pull.add(vehicle_.pulled_hub_);
       outside.turn_power += dot(vehicle_.turned_hub_, omega_);
@@ -136,39 +149,21 @@ class Bookkeeper {
     return outside;
   }
 
-  Leaving<H> leaving(const CenterMotion<H>& center) const {
-    const CenterMotion<S> center_S{vehicle_.spread(omega_), vehicle_.spread(center.r_BC),
-                                   vehicle_.spread(center.w_BC)};
-    Leaving<H> sum = of_limbs<Leaving>(
-        [&](const auto& limb, Leaving<S>& of) { limb.add_leaving(center_S, of); });
-    if (vehicle_.draining_.drains())
-      sum.add(vehicle_.draining_.mass_rate(), omega_, center.r_BC, center.v_BC());
-    return sum;
-  }
   /// Beyond that of the same mass where B is and does not move.
-  H lost_potential(const CenterMotion<H>& center) const {
+  H lost_potential(const Vec<H>& r_BC, const Moment<H>& lost) const {
     const Field<H>& field = vehicle_.field_;
-    const Moment<H> lost = leaving_moment();
     H power = -(lost.mass * field.mu * root(field.inverse_r2));
     if (vehicle_.plan_.law == GravityLaw::kSystemCom)  // the field is that at C
-      power -= dot(field.at_hub(), lost.moment + lost.mass * center.r_BC);
+      power -= dot(field.at_hub(), lost.moment + lost.mass * r_BC);
     if (!vehicle_.has_elements_) return power;
+    Power<H> lift;
+    if (vehicle_.limbs_.has_particles()) lift = particles_.lift(field);
     const Field<S> field_S = vehicle_.spread(field);
-    power += of_limbs<Power>([&](const auto& limb, Power<S>& sum) {
-               limb.add_lifted(field_S, sum);
-             }).power;
+    add_trees<Power>(lift, [&](const auto& limb, Power<S>& sum) { limb.add_lifted(field_S, sum); });
+    power += lift.power;
     for (std::size_t e = 0; e < vehicle_.elements_.size(); ++e)
       power += lifted(vehicle_.draining_.element_rate(e), vehicle_.elements_[e].r_EL, field);
     return power;
-  }
-  Moment<H> leaving_moment() const {
-    Moment<H> sum =
-        of_limbs<Moment>([](const auto& limb, Moment<S>& of) { limb.add_leaving_moment(of); });
-    if (vehicle_.draining_.drains()) {
-      const LinkMass<H>& rate = vehicle_.draining_.mass_rate();
-      sum += {rate.mass, rate.moment};
-    }
-    return sum;
   }
 
   /// @param add  what a limb says, or like ones side by side, to a sum
@@ -180,12 +175,17 @@ class Bookkeeper {
       vehicle_.limbs_.for_each_particle([&](auto& group) { add(group.limb, particles); });
       all = total<true>(particles);
     }
+    add_trees<Sum>(all, add);
+    return all;
+  }
+  /// But of particles.
+  template <template <class> class Sum, class Add>
+  void add_trees(Sum<H>& all, const Add& add) const {
     vehicle_.limbs_.for_each_tree([&](auto& group) {
       Sum<S> limbs{};
       add(group.limb, limbs);
       all += group.is_full ? total<true>(limbs) : total<false>(limbs);
     });
-    return all;
   }
   // See gathered().
   template <bool kIsFull>
@@ -215,12 +215,14 @@ class Bookkeeper {
             total<kIsFull>(o.turn_power)};
   }
   template <bool kIsFull>
-  static Leaving<H> total(const Leaving<S>& o) {
-    return {total<kIsFull>(o.mass), total<kIsFull>(o.momentum), total<kIsFull>(o.H_PntC_B),
-            total<kIsFull>(o.kinetic)};
+  static Change<H> total(const Change<S>& c) {
+    return {total<kIsFull>(c.leaving),
+            {total<kIsFull>(c.pull.force), total<kIsFull>(c.pull.torque)},
+            total<kIsFull>(c.power)};
   }
 
   Vehicle<H, S>& vehicle_;
+  ParticleBooks<H, S> particles_;
   const Number<H>* state_;
   Vec<H> omega_;
 };

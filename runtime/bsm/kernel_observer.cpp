@@ -11,7 +11,7 @@
 namespace twincraft::bsm::TWINCRAFT_KERNEL {
 namespace {
 
-using S = Instants;
+using S = Abreast;
 using Vector = Vec<S>;
 using Motion = LinkMotion<S>;
 

@@ -80,22 +80,9 @@ void Limb<H, S>::add_gravity(const Field<S>& field, Outside<S>& sum) const {
 
 template <class H, class S>
 requires KernelScalars<H, S>
-void Limb<H, S>::add_leaving(const CenterMotion<S>& center, Leaving<S>& sum) const {
-  for (const DrainingLink& draining : draining_) {
-    const MountMotion<S>& at = motions_[draining.link].at;
-    sum.add(draining.drain.mass_rate(), at.dcm_WL, at.omega, at.r_LB + center.r_BC,
-            at.v_LB + center.v_BC());
-  }
-}
-
-template <class H, class S>
-requires KernelScalars<H, S>
-void Limb<H, S>::add_leaving_moment(Moment<S>& sum) const {
-  for (const DrainingLink& draining : draining_) {
-    const MountMotion<S>& at = motions_[draining.link].at;
-    const LinkMass<S>& rate = draining.drain.mass_rate();
-    sum += {rate.mass, rate.mass * at.r_LB + at.dcm_WL * rate.moment};
-  }
+void Limb<H, S>::add_leaving(Change<S>& sum) const {
+  for (const DrainingLink& draining : draining_)
+    sum.add(draining.drain.mass_rate(), motions_[draining.link].at);
 }
 
 template <class H, class S>

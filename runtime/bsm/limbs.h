@@ -25,6 +25,12 @@ class Limbs {
     bool is_full;  // else the second lane repeats the first one's limb
     Of limb;
   };
+  /// Where the rows of as many particles begin as the books take at once, see Particle.
+  using Particles = std::array<const Number<S>*, kLimbs<H, S> == 1 ? 1 : kLanes<Abreast>>;
+
+  Limbs() = default;
+  Limbs(const Limbs&) = delete;  // particles_ tells where limbs are
+  Limbs& operator=(const Limbs&) = delete;
 
   void build(Plans plans, const Layout& layout) {
     const std::vector<LimbPlan>& all = plans[0]->limbs;
@@ -41,6 +47,7 @@ class Limbs {
         add({k, alone ? k : other}, !alone, plans, layout);
       }
     }
+    tell_particles();
   }
 
   template <class Each>
@@ -73,6 +80,7 @@ class Limbs {
     for (const auto& group : chains_) each(group);
     for (const auto& group : trees_) each(group);
   }
+  std::span<const Particles> particles() const { return particles_; }
   bool has_particles() const { return !points_.empty() || !bobs_.empty(); }
   /// The limb in lane l of S.
   template <class Of>
@@ -126,6 +134,22 @@ class Limbs {
     }
   }
 
+  void tell_particles() {
+    static const std::array<Number<S>, Particle<H, S>::kRows * kLanes<S>> kNothing{};
+    std::size_t used = 0;  // of the last
+    const auto add = [&](const Number<S>* rows) {
+      if (rows == nullptr) return;
+      if (used % std::tuple_size_v<Particles> == 0) {
+        particles_.emplace_back().fill(kNothing.data());
+        used = 0;
+      }
+      particles_.back()[used++] = rows;
+    };
+    for_each_particle([&](const auto& group) {
+      for (std::size_t j = 0; j < kLimbs<H, S>; ++j) add(group.limb.rows(j));
+    });
+  }
+
   bool is_grouped(std::size_t k) const {
     bool found = false;
     for_each([&found, k](const auto& group) {
@@ -150,6 +174,7 @@ class Limbs {
   std::vector<Group<Bob<H, S>>> bobs_;
   std::vector<Group<ChainLimb<H, S>>> chains_;
   std::vector<Group<Limb<H, S>>> trees_;
+  std::vector<Particles> particles_;
 };
 
 }  // namespace twincraft::bsm::TWINCRAFT_KERNEL

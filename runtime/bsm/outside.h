@@ -1,10 +1,10 @@
 // What the books of one evaluation are made of, and what they come to. The kernel sums it up limb
 // by limb from what the evaluation left in memory. The velocity of the hub's origin B is taken as
-// zero until the end: on orbit it would cost four digits. All but what leaves is about B, and limbs
-// say how they move as seen from the hub's axes, for the hub's own rotation omega is soon added to
-// any sum: with v = omega x r + w,
+// zero until the end: on orbit it would cost four digits. All sums are about B, and limbs say how
+// they move as seen from the hub's axes, for the hub's own rotation omega is soon added to any sum:
+// with v = omega x r + w,
 //   sum m v = omega x sum m r + sum m w,  sum F.v = omega . sum r x F + sum F.w
-// What leaves is about the centre of mass C, where its sums are those that the books ask for.
+// What leaves is told with v itself. When all is summed it is moved to the centre of mass C.
 // Tested by tests/runtime/books_test.cpp (against sums over elements in plain doubles).
 #pragma once
 
@@ -48,15 +48,6 @@ struct MassMotion {
   }
 };
 
-/// How B moves about the centre of mass C: what is told from B is told from C once this is added.
-template <class S>
-struct CenterMotion {
-  Vec<S> omega;       // of the hub
-  Vec<S> r_BC, w_BC;  // [m], [m/s] seen from the hub's axes
-
-  Vec<S> v_BC() const { return plus_cross(w_BC, omega, r_BC); }
-};
-
 /// What acts on links from outside.
 template <class S>
 struct Outside {
@@ -95,71 +86,57 @@ struct Outside {
   }
 };
 
-/// What changes the energy and the angular momentum about C, as if that did not move.
-template <class H>
-struct Own {
-  H power{};             // [W]
-  Vec<H> torque_PntC_B;  // [N m]
-
-  void set(const Outside<H>& outside, const CenterMotion<H>& center) {
-    const Vec<H>& force = outside.pull.force;
-    torque_PntC_B = plus_cross(outside.pull.torque, center.r_BC, force);
-    power = outside.power + dot(force, center.w_BC) + dot(center.omega, torque_PntC_B);
-  }
-  void add(const Outside<H>& outside, const CenterMotion<H>& center) {
-    Own more;
-    more.set(outside, center);
-    power += more.power;
-    torque_PntC_B += more.torque_PntC_B;
-  }
-};
-
-/// What leaves with the mass that leaves, at fixed motion, about C and as if that did not move.
-/// What C itself does drops out of the books: neither sum of m (r - r_C) nor of m (v - v_C) is
-/// anything.
+/// What changes momentum, angular momentum and energy: forces, and mass that leaves as it moves.
 template <class S>
-struct Leaving {
-  S mass{};         // [kg/s]
-  Vec<S> momentum;  // [N]
-  Vec<S> H_PntC_B;  // [N m]
-  S kinetic{};      // [W]
+struct Change {
+  Moment<S> leaving;  // [kg/s], [kg m/s]
+  Pull<S> pull;       // [N], [N m] about B
+  S power{};          // [W]
 
-  /// @param dcm_WL, omega  of a link  @param r, v  of its origin from C
-  void add(const LinkMass<S>& rate, const Mat<S>& dcm_WL, const Vec<S>& omega, const Vec<S>& r,
-           const Vec<S>& v) {
-    add(rate.mass, dcm_WL * rate.moment, dcm_WL * (rate.J * transposed(dcm_WL, omega)), omega, r,
-        v);
+  /// @param omega  of the hub
+  void add(const Outside<S>& forces, const Vec<S>& omega) {
+    pull.add(forces.pull);
+    power += forces.power + dot(omega, forces.pull.torque);
   }
-  /// Of a link in hub axes.
-  void add(const LinkMass<S>& rate, const Vec<S>& omega, const Vec<S>& r, const Vec<S>& v) {
-    add(rate.mass, rate.moment, rate.J * omega, omega, r, v);
+  /// What leaves a link, which moves as told.
+  void add(const LinkMass<S>& rate, const MountMotion<S>& link) {
+    const Vec<S> first = link.dcm_WL * rate.moment;
+    const Vec<S> spin = link.dcm_WL * (rate.J * transposed(link.dcm_WL, link.omega));
+    const Vec<S> momentum = plus_cross(rate.mass * link.v_LB, link.omega, first);
+    const Vec<S> H_PntL_B = plus_cross(spin, first, link.v_LB);  // about the link's origin
+    leaving += {rate.mass, rate.mass * link.r_LB + first};
+    pull.force += momentum;
+    pull.torque += plus_cross(H_PntL_B, link.r_LB, momentum);
+    power += S(0.5) * (dot(momentum, link.v_LB) + dot(H_PntL_B, link.omega));
   }
-  /// Of a particle.
-  void add_point(const S& mass_rate, const Vec<S>& r, const Vec<S>& v) {
-    const Vec<S> mv = mass_rate * v;
-    mass += mass_rate;
-    momentum += mv;
-    H_PntC_B = plus_cross(H_PntC_B, r, mv);
-    kinetic += S(0.5) * dot(mv, v);
+  /// What leaves the hub.
+  void add(const LinkMass<S>& rate, const Vec<S>& omega) {
+    const Vec<S> spin = rate.J * omega;
+    leaving += {rate.mass, rate.moment};
+    pull.force = plus_cross(pull.force, omega, rate.moment);
+    pull.torque += spin;
+    power += S(0.5) * dot(spin, omega);
   }
-  Leaving& operator+=(const Leaving& o) {
-    mass += o.mass;
-    momentum += o.momentum;
-    H_PntC_B += o.H_PntC_B;
-    kinetic += o.kinetic;
+  Change& operator+=(const Change& o) {
+    leaving += o.leaving;
+    pull.add(o.pull);
+    power += o.power;
     return *this;
   }
 
- private:
-  /// @param first, spin  about the link's origin, hub axes
-  void add(const S& mass_rate, const Vec<S>& first, const Vec<S>& spin, const Vec<S>& omega,
-           const Vec<S>& r, const Vec<S>& v) {
-    const Vec<S> own_momentum = plus_cross(mass_rate * v, omega, first);
-    const Vec<S> H_PntL_B = plus_cross(spin, first, v);  // about the link's origin
-    mass += mass_rate;
-    momentum += own_momentum;
-    H_PntC_B += plus_cross(H_PntL_B, r, own_momentum);
-    kinetic += S(0.5) * (dot(own_momentum, v) + dot(H_PntL_B, omega));
+  // The same about the centre of mass C, which moves by -v_BC. What C itself does drops out of the
+  // books: neither sum of m (r - r_C) nor of m (v - v_C) is anything.
+  /// @tparam kLeaves  else no mass does
+  template <bool kLeaves>
+  S power_about(const Vec<S>& v_BC) const {
+    if constexpr (!kLeaves) return power + dot(pull.force, v_BC);
+    return power + dot(v_BC, pull.force + (S(0.5) * leaving.mass) * v_BC);
+  }
+  template <bool kLeaves>
+  Vec<S> torque_about(const Vec<S>& r_BC, const Vec<S>& v_BC) const {
+    if constexpr (!kLeaves) return plus_cross(pull.torque, r_BC, pull.force);
+    return plus_cross(plus_cross(pull.torque, leaving.moment, v_BC), r_BC,
+                      pull.force + leaving.mass * v_BC);
   }
 };
 

@@ -37,7 +37,7 @@ class Point : public Particle<H, S> {
       set_lane(damping_, l, constants.damping);
       this->set_mass(l, *plans[l], from);
     }
-    this->put_mass(mass_);
+    this->put_mass(now_.mass);
   }
 
   void hold(std::size_t l, const LimbPlan& limb, const HeldInputsIn<Number<H>>& held) {
@@ -60,13 +60,13 @@ class Point : public Particle<H, S> {
   void move(const Number<H>* state, const Vec<S>& omega) {
     const S q = gather<H, S>(state, position_);
     const S q_dot = gather<H, S>(state, rate_);
-    r_ = r_HB_ + q * axis_;
+    now_.r = r_HB_ + q * axis_;
     if (is_watched_) {
       omega_ = omega;
-      w_ = q_dot * axis_;
+      now_.w = q_dot * axis_;
       pushed_ = {};
     }
-    a_bias_ = cross(omega, cross(omega, r_) + (q_dot + q_dot) * axis_);
+    a_bias_ = cross(omega, cross(omega, now_.r) + (q_dot + q_dot) * axis_);
     u_ = effort_ - stiffness_ * (q - rest_) - damping_ * q_dot;
   }
 
@@ -77,24 +77,24 @@ class Point : public Particle<H, S> {
       pull += pushed_.force;
       torque += pushed_.torque;
     }
-    if (field != nullptr) pull += mass_ * field->difference(r_);
+    if (field != nullptr) pull += now_.mass * field->difference(now_.r);
     if (r_CB != nullptr) {
       const Vec<S> force = dcm_BL_ * force_at_center_L_;
       pull += force;
-      torque += cross(*r_CB - r_, force);
+      torque += cross(*r_CB - now_.r, force);
     }
-    const Vec<S> f0 = mass_ * a_bias_ - pull;
+    const Vec<S> f0 = now_.mass * a_bias_ - pull;
     gain_ = inverse_mass_ * (u_ - dot(axis_, f0));
 
-    const Vec<S>&r = r_, &s = axis_;
-    const Vec<S> ms = mass_ * s, mr = mass_ * r, e = cross(r, s), me = mass_ * e;
+    const Vec<S>&r = now_.r, &s = axis_;
+    const Vec<S> ms = now_.mass * s, mr = now_.mass * r, e = cross(r, s), me = now_.mass * e;
     const S mr2 = dot(mr, r);
     const Vec<S> f = f0 + gain_ * ms;
     law.J += {mr2 - mr.x * r.x - me.x * e.x, mr2 - mr.y * r.y - me.y * e.y,
               mr2 - mr.z * r.z - me.z * e.z, -(mr.x * r.y) - me.x * e.y,
               -(mr.x * r.z) - me.x * e.z,    -(mr.y * r.z) - me.y * e.z};
-    law.M += {mass_ - ms.x * s.x, mass_ - ms.y * s.y, mass_ - ms.z * s.z,
-              -(ms.x * s.y),      -(ms.x * s.z),      -(ms.y * s.z)};
+    law.M += {now_.mass - ms.x * s.x, now_.mass - ms.y * s.y, now_.mass - ms.z * s.z,
+              -(ms.x * s.y),          -(ms.x * s.z),          -(ms.y * s.z)};
     law.H += {{-(me.x * s.x), mr.z - me.y * s.x, -mr.y - me.z * s.x},
               {-mr.z - me.x * s.y, -(me.y * s.y), mr.x - me.z * s.y},
               {mr.y - me.x * s.z, -mr.x - me.y * s.z, -(me.z * s.z)}};
@@ -103,7 +103,7 @@ class Point : public Particle<H, S> {
   }
 
   void recover(const Vec<S>& omega_dot_B, const Vec<S>& a_B, Number<H>* rate) const {
-    scatter<H, S>(gain_ - dot(axis_, a_B + cross(omega_dot_B, r_)), rate, rate_);
+    scatter<H, S>(gain_ - dot(axis_, a_B + cross(omega_dot_B, now_.r)), rate, rate_);
   }
 
   // For the books, as of Limb.
@@ -111,22 +111,21 @@ class Point : public Particle<H, S> {
     const S q_dot = gather<H, S>(state, rate_);
     return (effort_ - damping_ * q_dot) * q_dot;
   }
-  void trace(const Number<H>* state) { w_ = gather<H, S>(state, rate_) * axis_; }
+  void trace(const Number<H>* state) { now_.w = gather<H, S>(state, rate_) * axis_; }
   void add_loads(const Vec<S>* r_CB, Outside<S>& sum) const {
     Pull<S> pull{dcm_BL_ * force_L_, dcm_BL_ * torque_L_};
     if (is_watched_) pull.add(pushed_);
-    if (r_CB != nullptr) pull.add(dcm_BL_ * force_at_center_L_, *r_CB - r_);
-    sum.add(pull, {dcm_BL_, {}, r_, w_});
+    if (r_CB != nullptr) pull.add(dcm_BL_ * force_at_center_L_, *r_CB - now_.r);
+    sum.add(pull, {dcm_BL_, {}, now_.r, now_.w});
   }
 
  private:
-  using Base = Particle<H, S>;
-  using Base::inverse_mass_;
-  using Base::mass_;
-  using Base::r_;
-  using Base::w_;
+  using Particle<H, S>::inverse_mass_;
+  using Particle<H, S>::now_;
 
-  MountMotion<S> motion() const { return {dcm_BL_, omega_, r_, plus_cross(w_, omega_, r_)}; }
+  MountMotion<S> motion() const {
+    return {dcm_BL_, omega_, now_.r, plus_cross(now_.w, omega_, now_.r)};
+  }
 
   Vec<S> r_HB_, axis_;
   Mat<S> dcm_BL_;

@@ -41,11 +41,12 @@ using BatchArch = simd::sse2;
 using Pair = simd::batch<double, simd::sse2>;
 /// As many spacecraft as the instruction set has lanes for.
 using Batch = simd::batch<double, BatchArch>;
-/// As many instants of one spacecraft as are looked at together.
+/// As many things of one kind as books and observations look at together, whose numbers do not lie
+/// side by side: instants of one spacecraft, point masses on it.
 #if defined(__AVX2__)
-using Instants = simd::batch<double, simd::avx2>;
+using Abreast = simd::batch<double, simd::avx2>;
 #else
-using Instants = Pair;
+using Abreast = Pair;
 #endif
 
 template <class S>
@@ -112,6 +113,21 @@ inline Pair entry_of_each(const std::array<const double*, 2>& vectors, std::size
 inline simd::batch<double, simd::avx2> entry_of_each(const std::array<const double*, 4>& vectors,
                                                      std::size_t at) {
   return _mm256_setr_pd(vectors[0][at], vectors[1][at], vectors[2][at], vectors[3][at]);
+}
+#endif
+/// Add the sums over the lanes of four to to[0] to to[3].
+inline void add_sums_of_lanes(double* to, const std::array<Pair, 4>& of) {
+  for (std::size_t i = 0; i < 4; i += 2) {
+    const Pair first = _mm_unpacklo_pd(of[i], of[i + 1]);
+    const Pair second = _mm_unpackhi_pd(of[i], of[i + 1]);
+    (Pair::load_unaligned(to + i) + (first + second)).store_unaligned(to + i);
+  }
+}
+#if defined(__AVX2__)
+inline void add_sums_of_lanes(double* to,
+                              const std::array<simd::batch<double, simd::avx2>, 4>& of) {
+  using Four = simd::batch<double, simd::avx2>;
+  (Four::load_unaligned(to) + simd::haddp(of.data())).store_unaligned(to);
 }
 #endif
 /// The first lane's place is written last.
