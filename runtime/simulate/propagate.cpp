@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "runtime/simulate/samples.h"
+#include "runtime/simulate/waiting_samples.h"
 
 namespace twincraft {
 namespace {
@@ -39,9 +40,7 @@ class RecordedRun::Recording {
         flight_(engine, model, {.keeps_books = true}),
         due_(model, flight_.tolerance()),
         progress_(options_.progress),
-        last_(std::make_unique<Sample>(engine.layout())) {
-    for (std::size_t i = 0; i < engine.summed_at_once(); ++i)
-      waiting_.push_back(std::make_unique<Sample>(engine.layout()));
+        waiting_(engine) {
     guarded([this] {
       record();
       capture_instants();
@@ -63,24 +62,13 @@ class RecordedRun::Recording {
     trajectory_.accepted = flight_.accepted();
     deliver();
     if (trajectory_.recorded > 0) {
-      trajectory_.samples.push_back(std::move(last_->seen));
-      trajectory_.books.push_back(last_->books);
+      trajectory_.samples.push_back(waiting_.last().seen);
+      trajectory_.books.push_back(waiting_.last().beside);
     }
     return std::move(trajectory_);
   }
 
  private:
-  struct Sample {
-    /// With all the room that it will ever need: a step takes nothing from the heap.
-    explicit Sample(const StateLayout& layout) {
-      seen.joint_position.resize(static_cast<std::size_t>(layout.joints));
-      seen.joint_rate.resize(static_cast<std::size_t>(layout.joints));
-      seen.wheel_rate.resize(static_cast<std::size_t>(layout.wheels));
-    }
-    Observation seen;
-    Books books;
-  };
-
   template <class Work>
   void guarded(const Work& work) {
     try {
@@ -113,24 +101,18 @@ class RecordedRun::Recording {
   }
 
   void record() {
-    Sample& sample = *waiting_[waiting_count_];
     recorded_at_ = flight_.time();
-    engine_.note(recorded_at_, flight_.state(), sample.seen);
-    refuse_absurd(sample.seen, model_);
-    sample.books = flight_.books();
+    refuse_absurd(waiting_.note(recorded_at_, flight_.state()), model_);
+    waiting_.add(flight_.books());
     ++trajectory_.recorded;
     due_.taken(recorded_at_);
-    if (++waiting_count_ == waiting_.size()) deliver();
+    if (waiting_.is_full()) deliver();
   }
 
   /// What waits, to the sink. When that is depends on nothing but the number of samples.
   void deliver() {
-    engine_.sum_up_noted();
-    if (waiting_count_ == 0) return;
-    for (std::size_t i = 0; i < waiting_count_; ++i)
-      sink_.take(waiting_[i]->seen, waiting_[i]->books);
-    std::swap(last_, waiting_[waiting_count_ - 1]);
-    waiting_count_ = 0;
+    waiting_.deliver(
+        [this](const Observation& seen, const Books& books) { sink_.take(seen, books); });
   }
 
   /// All that have come, and when the next one does.
@@ -152,10 +134,8 @@ class RecordedRun::Recording {
   SampleTimes due_;
   Progress progress_;
   Trajectory trajectory_;
-  std::vector<std::unique_ptr<Sample>> waiting_;  // as many as the engine sums up at once
-  std::size_t waiting_count_ = 0;
-  double recorded_at_ = -1.0;     // [s] the last of them
-  std::unique_ptr<Sample> last_;  // that the sink has taken
+  WaitingSamples<Books> waiting_;
+  double recorded_at_ = -1.0;  // [s] the last of them
   double next_instant_ = kNever;
   bool ended_ = false;
 };

@@ -1,0 +1,69 @@
+// Samples that wait for one another, because an engine sums up several at once for little more than
+// one. Whoever takes them gets them in the order in which they came, a few at a time.
+// Tested by tests/runtime/waiting_samples_test.cpp.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "runtime/engine/engine.h"
+
+namespace twincraft {
+
+/// @tparam Beside  what waits with each of them, such as books
+template <class Beside>
+class WaitingSamples {
+ public:
+  struct Sample {
+    /// With all the room that it will ever need: a step takes nothing from the heap.
+    explicit Sample(const StateLayout& layout) {
+      seen.joint_position.resize(static_cast<std::size_t>(layout.joints));
+      seen.joint_rate.resize(static_cast<std::size_t>(layout.joints));
+      seen.wheel_rate.resize(static_cast<std::size_t>(layout.wheels));
+    }
+    Observation seen;
+    Beside beside = {};
+  };
+
+  /// `engine` must outlive it.
+  explicit WaitingSamples(Engine& engine) : engine_(engine) {
+    for (std::size_t i = 0; i <= engine.summed_at_once(); ++i)
+      samples_.push_back(std::make_unique<Sample>(engine.layout()));
+  }
+
+  /// @return what shows of the state itself; the sums over the vehicle come before it is taken
+  /// @pre not is_full(), and what was noted before was added or all delivered
+  const Observation& note(double time, std::span<const double> state) {
+    Observation& seen = samples_[count_]->seen;
+    engine_.note(time, state, seen);
+    return seen;
+  }
+  /// Make a sample of what was noted. What is noted and not added is no sample.
+  void add(const Beside& beside) { samples_[count_++]->beside = beside; }
+
+  /// There are as many as the engine sums up at once: deliver() before the next.
+  bool is_full() const { return count_ + 1 == samples_.size(); }
+
+  /// All that wait, one after another, to take(seen, beside).
+  template <class Take>
+  void deliver(const Take& take) {
+    engine_.sum_up_noted();
+    if (count_ == 0) return;
+    for (std::size_t i = 0; i < count_; ++i) take(samples_[i]->seen, samples_[i]->beside);
+    std::swap(samples_.back(), samples_[count_ - 1]);
+    count_ = 0;
+  }
+
+  /// The last that was delivered. @pre there was one
+  const Sample& last() const { return *samples_.back(); }
+
+ private:
+  Engine& engine_;
+  std::vector<std::unique_ptr<Sample>> samples_;  // as many as may wait, and the last one
+  std::size_t count_ = 0;                         // that wait
+};
+
+}  // namespace twincraft
