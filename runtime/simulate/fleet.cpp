@@ -9,43 +9,57 @@
 #include "runtime/simulate/flight.h"
 #include "runtime/simulate/lanes_flight.h"
 #include "runtime/simulate/samples.h"
+#include "runtime/simulate/waiting_samples.h"
 
 namespace twincraft {
 namespace {
 
 bool is_stopped(const FleetOptions& options) { return options.stop != nullptr && *options.stop; }
 
-/// A member and what looks at it.
+/// A member and what looks at it. It learns a few samples late that it need not fly on.
 class Watched {
  public:
   Watched(const FleetMember& member, bsm::InstructionSet instructions)
-      : member_(member), engine_(make_engine(EngineKind::kBsm, *member.bundle, instructions)) {}
+      : member_(member),
+        engine_(make_engine(EngineKind::kBsm, *member.bundle, instructions)),
+        waiting_(*engine_) {}
 
   const Model& model() const { return member_.bundle->model; }
   Engine& engine() { return *engine_; }
   bool flies() const { return flies_; }
   const FleetEnd& end() const { return end_; }
 
-  void sample(double time, std::span<const double> state) {
-    engine_->observe(time, state, seen_);
-    refuse_absurd(seen_, model());
-    end_.time = time;
-    flies_ = member_.take(seen_);
+  void sample(double time, std::span<const double> state, const AcceptedErrors& accepted = {}) {
+    refuse_absurd(waiting_.note(time, state), model());
+    waiting_.add(accepted);
+    if (waiting_.is_full()) deliver();
   }
   void fail(std::string what) {
-    end_.failure = std::move(what);
+    deliver();
+    if (flies_) end_.failure = std::move(what);
     flies_ = false;
   }
-  void accept(const AcceptedErrors& errors) { end_.accepted = errors; }
-  void interrupt() {
-    end_.is_interrupted = true;
+  /// @param is_whole  it came to the end of its plan
+  void finish(bool is_whole) {
+    deliver();
+    if (flies_) end_.is_interrupted = !is_whole;
     flies_ = false;
   }
 
  private:
+  /// None after the one that it need not fly on from.
+  void deliver() {
+    waiting_.deliver([this](const Observation& seen, const AcceptedErrors& accepted) {
+      if (!flies_) return;
+      end_.time = seen.time;
+      end_.accepted = accepted;
+      flies_ = member_.take(seen);
+    });
+  }
+
   const FleetMember& member_;
   std::unique_ptr<Engine> engine_;
-  Observation seen_;
+  WaitingSamples<AcceptedErrors> waiting_;
   FleetEnd end_;
   bool flies_ = true;
 };
@@ -56,7 +70,7 @@ void fly_alone(Watched& one, const FleetOptions& options) {
     Flight flight(one.engine(), one.model());
     SampleTimes due(one.model(), flight.tolerance());
     const auto sample = [&] {
-      one.sample(flight.time(), flight.state());
+      one.sample(flight.time(), flight.state(), flight.accepted());
       due.taken(flight.time());
     };
     sample();
@@ -64,8 +78,7 @@ void fly_alone(Watched& one, const FleetOptions& options) {
       flight.advance(options.stop);
       if (due.at(flight.time()) || flight.done()) sample();
     }
-    if (one.flies() && !flight.done()) one.interrupt();
-    one.accept(flight.accepted());
+    one.finish(flight.done());
   } catch (const NumericalFailure& failure) {
     one.fail(failure.what());
   }
@@ -95,9 +108,7 @@ class Formation {
       sample(flight);
       due.taken(flight.time());
     }
-    if (flight.done()) return;
-    for (Watched* one : members_)
-      if (one->flies()) one->interrupt();
+    for (Watched* one : members_) one->finish(flight.done());
   }
 
  private:

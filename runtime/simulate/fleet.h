@@ -19,7 +19,7 @@ namespace twincraft {
 /// One of them. What it refers to must outlive the flight.
 struct FleetMember {
   const Bundle* bundle = nullptr;
-  /// Takes a sample; false: it need not fly on.
+  /// Takes one sample after another, a few at a time; false: it need not fly on, and gets no more.
   std::function<bool(const Observation& sample)> take;
 };
 
@@ -27,7 +27,7 @@ struct FleetEnd {
   double time = 0.0;             // [s] of the last sample
   std::string failure = {};      // numerical: what, when and which coordinate; empty: none
   bool is_interrupted = false;   // by `stop`
-  AcceptedErrors accepted = {};  // of an adaptive method
+  AcceptedErrors accepted = {};  // of an adaptive method, up to the last sample
 };
 
 struct FleetOptions {

@@ -124,6 +124,70 @@ TEST(Fleet, LetsOneStopOrFailAndTheOthersFlyOn) {
   EXPECT_EQ(samples[2], 14U);
 }
 
+/// An explicit method follows a spring as stiff as this for a few samples and no further.
+const std::vector<std::string> kFailsMidway{"panels.wing_p.stiffness=1.33e6 N m/rad",
+                                            "simulation.record=0.1 s"};
+
+std::vector<double> times_of(const std::vector<Observation>& samples) {
+  std::vector<double> times;
+  for (const Observation& sample : samples) times.push_back(sample.time);
+  return times;
+}
+
+TEST(Fleet, TakesTheSamplesOfARecordedRunInTheirOrderAndOnce) {
+  std::vector<Bundle> fleet = mixed();
+  fleet.push_back(quickstart(kFailsMidway));
+  fleet.push_back(quickstart({"simulation.integrator=rkf45", "simulation.record=0.7 s"}));
+  const std::vector<Flown> flown = fly(all_of(fleet));
+  for (std::size_t k = 0; k < fleet.size(); ++k) {
+    const Trajectory alone = propagate(*make_engine(EngineKind::kBsm, fleet[k]), fleet[k].model);
+    const std::vector<double> times = times_of(flown[k].samples);
+    EXPECT_EQ(times, times_of(alone.samples)) << k;
+    EXPECT_EQ(flown[k].end.time, times.back()) << k;
+    EXPECT_EQ(flown[k].end.failure.empty(), alone.failure.empty()) << k;
+  }
+}
+
+/// Flies one that need not fly on after `last` samples.
+Flown fly_until(const Bundle& bundle, std::size_t last) {
+  Flown flown;
+  const FleetMember member{&bundle, [&](const Observation& sample) {
+                             flown.samples.push_back(sample);
+                             return flown.samples.size() < last;
+                           }};
+  flown.end = fly_fleet({&member, 1}).front();
+  return flown;
+}
+
+TEST(Fleet, ForgetsWhatCameAfterTheSampleThatNeedNotFlyOn) {
+  const Bundle fails = quickstart(kFailsMidway);
+  const Flown whole = fly({&fails}).front();
+  ASSERT_EQ(whole.samples.size(), 5U);  // of which one at least waited for others
+  ASSERT_THAT(whole.end.failure, HasSubstr("at t = "));
+  for (std::size_t last = 1; last <= whole.samples.size(); ++last) {
+    const Flown stopped = fly_until(fails, last);
+    EXPECT_EQ(stopped.samples.size(), last);
+    EXPECT_EQ(stopped.end.time, whole.samples[last - 1].time);
+    EXPECT_THAT(stopped.end.failure, IsEmpty()) << last;
+    EXPECT_FALSE(stopped.end.is_interrupted);
+  }
+}
+
+TEST(Fleet, KnowsTheErrorsOfAnAdaptiveMethodUpToTheLastSample) {
+  const Bundle longer = quickstart({"simulation.integrator=rkf45"});
+  for (const std::size_t last : {2U, 3U, 5U}) {
+    const std::string end = std::to_string(0.5 * static_cast<double>(last - 1)) + " s";
+    const Flown stopped = fly_until(longer, last);
+    const Bundle shorter =
+        quickstart({"simulation.integrator=rkf45", "simulation.duration=" + end});
+    const Flown whole = fly({&shorter}).front();
+    EXPECT_EQ(stopped.end.time, whole.end.time);
+    EXPECT_GT(stopped.end.accepted.attitude, 0.0);
+    EXPECT_EQ(stopped.end.accepted.attitude, whole.end.accepted.attitude);
+    EXPECT_EQ(stopped.end.accepted.joint, whole.end.accepted.joint);
+  }
+}
+
 TEST(Fleet, IsInterruptedByASignal) {
   const std::vector<Bundle> fleet{quickstart({}), quickstart({"simulation.integrator=rkf45"})};
   std::atomic<bool> stop = false;
