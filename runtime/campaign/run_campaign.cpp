@@ -63,17 +63,19 @@ class Flyer {
     record.outputs = outputs_.results();
     record.reason = stopped_;
     add_reason(record.reason, broken_requirements(columns, record.outputs));
+    last_ = end.last;
     accepted_ = end.accepted;
   }
 
   /// Whether its step is short enough to be seen without a judgement. @pre it has flown
-  bool is_surely_resolved() const { return screen_.passes(accepted_); }
+  bool is_surely_resolved() const { return screen_.passes(last_, accepted_); }
 
  private:
   Bundle bundle_;
   OutputReducer outputs_;
   StopWatch watch_;
   ResolutionScreen screen_;
+  Observation last_;
   AcceptedErrors accepted_;
   std::string stopped_;
 };

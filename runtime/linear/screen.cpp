@@ -65,7 +65,6 @@ void ResolutionScreen::see(const Observation& sample) {
     turning_ = turning;
     fastest_ = sample;
   }
-  last_ = sample;
   for (std::size_t joint = 0; joint < joints_.size(); ++joint)
     joints_[joint].see(sample.joint_position[joint]);
   if (model_.gravity.mu == 0.0) return;
@@ -73,9 +72,9 @@ void ResolutionScreen::see(const Observation& sample) {
   orbit_rate_ = std::max(orbit_rate_, sample.r_CN_N.cross(sample.v_CN_N).norm() / (r * r));
 }
 
-bool ResolutionScreen::passes(const AcceptedErrors& accepted) const {
+bool ResolutionScreen::passes(const Observation& last, const AcceptedErrors& accepted) const {
   if (tableau_of(model_.simulation.method).adaptive) return passes_accepted(accepted);
-  return passes_motion() && (model_.simulation.translation || passes_modes());
+  return passes_motion() && (model_.simulation.translation || passes_modes(last));
 }
 
 bool ResolutionScreen::passes_accepted(const AcceptedErrors& accepted) const {
@@ -100,7 +99,7 @@ bool ResolutionScreen::passes_motion() const {
   return error(orbit_rate_) + 1.5 * angle * lost * steps * steps <= kOrbitError;
 }
 
-bool ResolutionScreen::passes_modes() const {
+bool ResolutionScreen::passes_modes(const Observation& last) const {
   ModeScreen screen(model_);
   if (screen.sees_too_many()) return true;
   const Inspection inspection = plan_inspection(model_);
@@ -116,7 +115,7 @@ bool ResolutionScreen::passes_modes() const {
     if (!foresees(stretch.begin)) return false;
   if (drains(model_) && !(foresees_all(inspection.before) && foresees_all(inspection.along)))
     return false;
-  return screen.passes(fastest_, fastest_.time) && screen.passes(last_, last_.time);
+  return screen.passes(fastest_, fastest_.time) && screen.passes(last, last.time);
 }
 
 }  // namespace twincraft

@@ -23,18 +23,19 @@ class ResolutionScreen {
 
   /// True: modes, turning and orbit, or the errors that an adaptive method accepted, are well
   /// inside the limits of their rules. False says nothing yet: judge_resolution() does.
+  /// @param last      sample of the run
   /// @param accepted  of an adaptive method
-  bool passes(const AcceptedErrors& accepted) const;
+  bool passes(const Observation& last, const AcceptedErrors& accepted) const;
 
  private:
   bool passes_accepted(const AcceptedErrors& accepted) const;
-  bool passes_modes() const;
+  bool passes_modes(const Observation& last) const;
   bool passes_motion() const;
 
   const Model& model_;
-  Observation last_, fastest_;  // the one that turns fastest
-  double turning_ = -1.0;       // [rad/s] of hub or hinge
-  double orbit_rate_ = 0.0;     // [rad/s]
+  Observation fastest_;      // the one that turns fastest
+  double turning_ = -1.0;    // [rad/s] of hub or hinge
+  double orbit_rate_ = 0.0;  // [rad/s]
   std::vector<Extent> joints_;
 };
 

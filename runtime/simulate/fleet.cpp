@@ -27,7 +27,9 @@ class Watched {
   const Model& model() const { return member_.bundle->model; }
   Engine& engine() { return *engine_; }
   bool flies() const { return flies_; }
-  const FleetEnd& end() const { return end_; }
+  FleetEnd end() const {
+    return {waiting_.last().seen, failure_, is_interrupted_, waiting_.last().beside};
+  }
 
   void sample(double time, std::span<const double> state, const AcceptedErrors& accepted = {}) {
     refuse_absurd(waiting_.note(time, state), model());
@@ -36,32 +38,29 @@ class Watched {
   }
   void fail(std::string what) {
     deliver();
-    if (flies_) end_.failure = std::move(what);
+    if (flies_) failure_ = std::move(what);
     flies_ = false;
   }
   /// @param is_whole  it came to the end of its plan
   void finish(bool is_whole) {
     deliver();
-    if (flies_) end_.is_interrupted = !is_whole;
+    if (flies_) is_interrupted_ = !is_whole;
     flies_ = false;
   }
 
  private:
-  /// None after the one that it need not fly on from.
   void deliver() {
-    waiting_.deliver([this](const Observation& seen, const AcceptedErrors& accepted) {
-      if (!flies_) return;
-      end_.time = seen.time;
-      end_.accepted = accepted;
+    waiting_.deliver([this](const Observation& seen, const AcceptedErrors&) {
       flies_ = member_.take(seen);
+      return flies_;
     });
   }
 
   const FleetMember& member_;
   std::unique_ptr<Engine> engine_;
   WaitingSamples<AcceptedErrors> waiting_;
-  FleetEnd end_;
-  bool flies_ = true;
+  std::string failure_;
+  bool is_interrupted_ = false, flies_ = true;
 };
 
 /// A member that the lanes do not serve: its steps or its masses are its own.

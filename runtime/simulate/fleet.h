@@ -24,10 +24,10 @@ struct FleetMember {
 };
 
 struct FleetEnd {
-  double time = 0.0;             // [s] of the last sample
+  Observation last = {};         // of all samples; zeros: it failed before the first
   std::string failure = {};      // numerical: what, when and which coordinate; empty: none
   bool is_interrupted = false;   // by `stop`
-  AcceptedErrors accepted = {};  // of an adaptive method, up to the last sample
+  AcceptedErrors accepted = {};  // of an adaptive method, up to there
 };
 
 struct FleetOptions {

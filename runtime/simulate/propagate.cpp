@@ -111,8 +111,10 @@ class RecordedRun::Recording {
 
   /// What waits, to the sink. When that is depends on nothing but the number of samples.
   void deliver() {
-    waiting_.deliver(
-        [this](const Observation& seen, const Books& books) { sink_.take(seen, books); });
+    waiting_.deliver([this](const Observation& seen, const Books& books) {
+      sink_.take(seen, books);
+      return true;
+    });
   }
 
   /// All that have come, and when the next one does.

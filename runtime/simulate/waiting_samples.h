@@ -47,22 +47,24 @@ class WaitingSamples {
   /// There are as many as the engine sums up at once: deliver() before the next.
   bool is_full() const { return count_ + 1 == samples_.size(); }
 
-  /// All that wait, one after another, to take(seen, beside).
+  /// All that wait, one after another, to take(seen, beside). Where that says false, it gets none
+  /// of those that follow.
   template <class Take>
   void deliver(const Take& take) {
     engine_.sum_up_noted();
-    if (count_ == 0) return;
-    for (std::size_t i = 0; i < count_; ++i) take(samples_[i]->seen, samples_[i]->beside);
-    std::swap(samples_.back(), samples_[count_ - 1]);
+    std::size_t taken = 0;
+    for (bool goes_on = true; goes_on && taken < count_; ++taken)
+      goes_on = take(samples_[taken]->seen, samples_[taken]->beside);
+    if (taken > 0) std::swap(samples_.back(), samples_[taken - 1]);
     count_ = 0;
   }
 
-  /// The last that was delivered. @pre there was one
+  /// The last that was taken. Zeros: none was.
   const Sample& last() const { return *samples_.back(); }
 
  private:
   Engine& engine_;
-  std::vector<std::unique_ptr<Sample>> samples_;  // as many as may wait, and the last one
+  std::vector<std::unique_ptr<Sample>> samples_;  // as many as may wait, and the last taken
   std::size_t count_ = 0;                         // that wait
 };
 

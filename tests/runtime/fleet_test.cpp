@@ -78,7 +78,7 @@ TEST(Fleet, FliesEveryVehicleAsItWouldAlone) {
     const Trajectory alone = propagate(*make_engine(EngineKind::kBsm, fleet[k]), model);
     ASSERT_EQ(flown[k].samples.size(), alone.samples.size()) << k;
     EXPECT_THAT(flown[k].end.failure, IsEmpty());
-    EXPECT_EQ(flown[k].end.time, model.simulation.duration);
+    EXPECT_EQ(flown[k].end.last.time, model.simulation.duration);
     for (std::size_t i = 0; i < alone.samples.size(); ++i) {
       const std::vector<double> ours = numbers_of(model, flown[k].samples[i]),
                                 expected = numbers_of(model, alone.samples[i]);
@@ -116,11 +116,11 @@ TEST(Fleet, LetsOneStopOrFailAndTheOthersFlyOn) {
                          return i != 0 || samples[i] < 3;
                        }});
   const std::vector<FleetEnd> ends = fly_fleet(members);
-  EXPECT_EQ(ends[0].time, 1.0);
+  EXPECT_EQ(ends[0].last.time, 1.0);
   EXPECT_EQ(samples[0], 3U);
   EXPECT_THAT(ends[0].failure, IsEmpty());
   EXPECT_THAT(ends[1].failure, HasSubstr("at t = "));
-  EXPECT_EQ(ends[2].time, 6.01);
+  EXPECT_EQ(ends[2].last.time, 6.01);
   EXPECT_EQ(samples[2], 14U);
 }
 
@@ -143,7 +143,7 @@ TEST(Fleet, TakesTheSamplesOfARecordedRunInTheirOrderAndOnce) {
     const Trajectory alone = propagate(*make_engine(EngineKind::kBsm, fleet[k]), fleet[k].model);
     const std::vector<double> times = times_of(flown[k].samples);
     EXPECT_EQ(times, times_of(alone.samples)) << k;
-    EXPECT_EQ(flown[k].end.time, times.back()) << k;
+    EXPECT_EQ(flown[k].end.last.time, times.back()) << k;
     EXPECT_EQ(flown[k].end.failure.empty(), alone.failure.empty()) << k;
   }
 }
@@ -167,7 +167,7 @@ TEST(Fleet, ForgetsWhatCameAfterTheSampleThatNeedNotFlyOn) {
   for (std::size_t last = 1; last <= whole.samples.size(); ++last) {
     const Flown stopped = fly_until(fails, last);
     EXPECT_EQ(stopped.samples.size(), last);
-    EXPECT_EQ(stopped.end.time, whole.samples[last - 1].time);
+    EXPECT_EQ(stopped.end.last.time, whole.samples[last - 1].time);
     EXPECT_THAT(stopped.end.failure, IsEmpty()) << last;
     EXPECT_FALSE(stopped.end.is_interrupted);
   }
@@ -181,7 +181,7 @@ TEST(Fleet, KnowsTheErrorsOfAnAdaptiveMethodUpToTheLastSample) {
     const Bundle shorter =
         quickstart({"simulation.integrator=rkf45", "simulation.duration=" + end});
     const Flown whole = fly({&shorter}).front();
-    EXPECT_EQ(stopped.end.time, whole.end.time);
+    EXPECT_EQ(stopped.end.last.time, whole.end.last.time);
     EXPECT_GT(stopped.end.accepted.attitude, 0.0);
     EXPECT_EQ(stopped.end.accepted.attitude, whole.end.accepted.attitude);
     EXPECT_EQ(stopped.end.accepted.joint, whole.end.accepted.joint);

@@ -19,7 +19,7 @@ bool passes(const std::string& file, std::vector<std::string> overrides = {}) {
   EXPECT_TRUE(run.failure.empty()) << run.failure;
   ResolutionScreen screen(bundle.model);
   for (const Observation& sample : run.samples) screen.see(sample);
-  return screen.passes(run.accepted);
+  return screen.passes(run.samples.back(), run.accepted);
 }
 
 TEST(ResolutionScreen, PassesWhatHasAShortStep) {

@@ -37,12 +37,13 @@ class Waiting : public testing::Test {
     waiting_.note(time, state_);
     waiting_.add(static_cast<int>(-time));
   }
-  std::vector<double> deliver() {
+  std::vector<double> deliver(std::size_t most = 100) {
     std::vector<double> times;
-    waiting_.deliver([&times](const Observation& seen, int beside) {
+    waiting_.deliver([&](const Observation& seen, int beside) {
       EXPECT_EQ(seen.kinetic, 100.0 * seen.time);
       EXPECT_EQ(beside, static_cast<int>(-seen.time));
       times.push_back(seen.time);
+      return times.size() < most;
     });
     return times;
   }
@@ -75,6 +76,15 @@ TEST_F(Waiting, ShowTheLastUntilAnotherIsTaken) {
   (void)deliver();
   EXPECT_EQ(waiting_.last().seen.time, 2.0);
   EXPECT_EQ(waiting_.last().beside, -2);
+}
+
+TEST_F(Waiting, AreForgottenWhereNoMoreAreTaken) {
+  for (const double time : {1.0, 2.0, 3.0}) add(time);
+  EXPECT_THAT(deliver(2), ElementsAre(1.0, 2.0));
+  EXPECT_EQ(waiting_.last().seen.time, 2.0);
+  EXPECT_THAT(deliver(), IsEmpty());
+  add(4.0);
+  EXPECT_THAT(deliver(), ElementsAre(4.0));
 }
 
 TEST_F(Waiting, AreNotThoseThatWereNotedAndNotAdded) {
