@@ -19,12 +19,38 @@
 
 namespace twincraft::api {
 
+/// Signals of members, each into a row.
+class Batch::Reading {
+ public:
+  Reading(const std::vector<OutputSignal>& signals, WaitingRows& waiting)
+      : signals_(signals), waiting_(waiting) {}
+
+  void see(const Observation& seen, std::span<double> row) const {
+    read_signals(signals_, seen, row);
+  }
+  void note(double time, std::span<const double> state, std::span<double> row) {
+    waiting_.note(time, state);
+    waiting_.add(row);
+    if (waiting_.is_full()) finish();
+  }
+  void finish() {
+    waiting_.deliver([this](const Observation& seen, std::span<double> row) {
+      see(seen, row);
+      return true;
+    });
+  }
+
+ private:
+  const std::vector<OutputSignal>& signals_;
+  WaitingRows& waiting_;
+};
+
 class Batch::Group {
  public:
   virtual ~Group() = default;
   virtual double time() const = 0;
   virtual void step(std::size_t count) = 0;
-  virtual void observe(std::size_t place, Engine& observer, Observation& seen) = 0;
+  virtual void read(std::size_t place, Reading& reading, std::span<double> row) = 0;
   virtual void set_state(std::size_t place, std::span<const double> numbers) = 0;
   virtual double input(std::size_t place, std::size_t port) const = 0;
   virtual void drive(std::size_t place, std::span<const double> values) = 0;
@@ -38,22 +64,22 @@ class Batch::Together final : public Group {
  public:
   Together(const CompiledModel& model, const bsm::Plan& plan)
       : model_(model),
-        flight_(std::vector(LanesFlight::lanes(), LanesFlight::Craft{&model.model(), &plan})) {}
+        layout_{model.model().engines.attitude,
+                static_cast<int>(model.model().assembly.links.size()) - 1,
+                static_cast<int>(model.model().assembly.rotors.size())},
+        flight_(std::vector(LanesFlight::lanes(), LanesFlight::Craft{&model.model(), &plan})),
+        state_(static_cast<std::size_t>(layout_.size())) {}
 
   double time() const override { return flight_.time(); }
   void step(std::size_t count) override {
     for (std::size_t i = 0; i < count; ++i) flight_.advance_on_grid();
   }
-  void observe(std::size_t place, Engine& observer, Observation& seen) override {
-    state_.resize(static_cast<std::size_t>(observer.layout().size()));
+  void read(std::size_t place, Reading& reading, std::span<double> row) override {
     flight_.read_state(place, state_);
-    observer.observe(time(), state_, seen);
+    reading.note(time(), state_, row);
   }
   void set_state(std::size_t place, std::span<const double> numbers) override {
-    const StateLayout layout{model_.model().engines.attitude,
-                             static_cast<int>(model_.model().assembly.links.size()) - 1,
-                             static_cast<int>(model_.model().assembly.rotors.size())};
-    const Eigen::VectorXd packed = pack(state_from(model_, numbers), layout);
+    const Eigen::VectorXd packed = pack(state_from(model_, numbers), layout_);
     flight_.set_state(place, {packed.data(), static_cast<std::size_t>(packed.size())});
   }
   double input(std::size_t place, std::size_t port) const override {
@@ -70,8 +96,9 @@ class Batch::Together final : public Group {
 
  private:
   const CompiledModel& model_;
+  StateLayout layout_;
   LanesFlight flight_;
-  std::vector<double> state_;
+  std::vector<double> state_;  // of one of them
 };
 
 /// A member that the lanes do not serve: its steps or its masses are its own.
@@ -87,7 +114,9 @@ class Batch::Alone final : public Group {
       if (!failure_.empty()) simulation_->pass();  // it may be given another state later
     }
   }
-  void observe(std::size_t, Engine&, Observation& seen) override { seen = simulation_->observe(); }
+  void read(std::size_t, Reading& reading, std::span<double> row) override {
+    reading.see(simulation_->observe(), row);
+  }
   void set_state(std::size_t, std::span<const double> numbers) override {
     simulation_->set_state(numbers);
     failure_.clear();
@@ -130,7 +159,8 @@ Batch::Batch(std::shared_ptr<const CompiledModel> model, std::size_t count, std:
     : model_(std::move(model)),
       count_(count),
       threads_(threads != 0 ? threads : std::max(1u, std::thread::hardware_concurrency())),
-      observer_(make_engine(EngineKind::kBsm, model_->bundle())) {
+      observer_(make_engine(EngineKind::kBsm, model_->bundle())),
+      waiting_(*observer_) {
   if (count == 0) refuse("a batch has at least one member");
   const Model& m = model_->model();
   if (LanesFlight::refusal(m).empty()) {
@@ -166,16 +196,16 @@ void Batch::read_outputs(std::span<double> rows) { observe_all(model_->output_si
 
 void Batch::observe_all(const std::vector<OutputSignal>& signals, std::span<double> rows) {
   const std::size_t width = rows.size() / count_;
-  Observation seen;
+  Reading reading(signals, waiting_);
   for (std::size_t member = 0; member < count_; ++member) {
     const std::span<double> row = rows.subspan(member * width, width);
     if (!failure(member).empty()) {
       std::ranges::fill(row, kNaN);
       continue;
     }
-    groups_[group_of(member)]->observe(member % per_group_, *observer_, seen);
-    read_signals(signals, seen, row);
+    groups_[group_of(member)]->read(member % per_group_, reading, row);
   }
+  reading.finish();
 }
 
 void Batch::read_inputs(std::span<double> rows) const {

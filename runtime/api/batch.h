@@ -12,6 +12,7 @@
 
 #include "runtime/api/simulation.h"
 #include "runtime/simulate/lanes_flight.h"
+#include "runtime/simulate/waiting_samples.h"
 
 namespace twincraft::api {
 
@@ -42,6 +43,9 @@ class Batch {
   const std::string& failure(std::size_t member) const;
 
  private:
+  /// Samples, each beside the row that it is read into.
+  using WaitingRows = WaitingSamples<std::span<double>>;
+  class Reading;
   /// Members that are flown together: those of the lanes, or one.
   class Group;
   class Together;
@@ -56,6 +60,7 @@ class Batch {
   std::size_t count_, threads_, per_group_ = 1;
   std::unique_ptr<bsm::Plan> plan_;  // of lanes
   std::unique_ptr<Engine> observer_;
+  WaitingRows waiting_;
   std::vector<std::unique_ptr<Group>> groups_;
 };
 
