@@ -4,22 +4,12 @@
 namespace twincraft {
 namespace {
 
-using Input = Eigen::Map<const Vector3d>;
-using Output = Eigen::Map<Vector3d>;
-
 Vector3d center_of_mass(const Model& model) {
   MassProperties sum;
   for (const MassElement& element : model.assembly.links.front().elements) {
     sum = sum + properties_of(element);
   }
   return sum.r_CL_L;
-}
-
-Input position(std::span<const double> state) {
-  return Input(state.data() + StateLayout::position());
-}
-Input velocity(std::span<const double> state) {
-  return Input(state.data() + StateLayout::velocity());
 }
 
 }  // namespace
@@ -45,18 +35,6 @@ void PointMassEngine::hold(const Inputs& inputs) {
   force_N_.setZero();
   for (int load = 0; load < inputs.layout.loads; ++load)
     force_N_ += inputs.vector(inputs.layout.force(load));
-}
-
-void PointMassEngine::derivative(double, std::span<const double> state, std::span<double> rate,
-                                 BookRates* books) {
-  if (books != nullptr) book(state, *books);
-  Output(rate.data() + StateLayout::position()) = velocity(state);
-  Output(rate.data() + StateLayout::velocity()) = acceleration(position(state), velocity(state));
-}
-
-void PointMassEngine::book(std::span<const double> state, BookRates& books) {
-  books = {.power = force_N_.dot(velocity(state)),
-           .force_N = force_N_ + mass() * gravity(position(state))};
 }
 
 void PointMassEngine::observe(double time, std::span<const double> state, Observation& seen) {

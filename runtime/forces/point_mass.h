@@ -15,8 +15,6 @@ class PointMassEngine : public Engine {
   const StateLayout& layout() const override { return layout_; }
   Eigen::VectorXd initial_state() const override { return pack(initial_, layout_); }
   void hold(const Inputs& inputs) override;
-  void derivative(double time, std::span<const double> state, std::span<double> rate,
-                  BookRates* books) override;
   void finish_step(std::span<double>) override {}
   void observe(double time, std::span<const double> state, Observation& seen) override;
 
@@ -25,8 +23,6 @@ class PointMassEngine : public Engine {
   /// As newly built.
   PointMassEngine(const PointMassEngine& other);
 
-  /// Of the hub origin [m/s^2].
-  virtual Vector3d acceleration(const Vector3d& r_BN_N, const Vector3d& v_BN_N) = 0;
   virtual double mass() const = 0;  // [kg]
 
   Vector3d gravity(const Vector3d& r_BN_N) const {  // [m/s^2] where the mass is
@@ -34,9 +30,12 @@ class PointMassEngine : public Engine {
   }
   const Vector3d& held_force_N() const { return force_N_; }  // [N] of all loads
 
- private:
-  [[gnu::noinline]] void book(std::span<const double> state, BookRates& books);
+  /// What changes the books. @param g_N  [m/s^2] gravity() at its place
+  BookRates book_rates(const Vector3d& v_BN_N, const Vector3d& g_N) const {
+    return {.power = force_N_.dot(v_BN_N), .force_N = force_N_ + mass() * g_N};
+  }
 
+ private:
   VehicleState initial_;
   double mu_;        // [m^3/s^2] zero without gravity
   Vector3d r_CB_N_;  // [m] where in the hub the mass is

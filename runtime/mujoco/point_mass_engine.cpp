@@ -29,6 +29,16 @@ class MujocoPointMass final : public PointMassEngine {
     return std::make_unique<MujocoPointMass>(*this);
   }
 
+  void derivative(double, std::span<const double> state, std::span<double> rate,
+                  BookRates* books) override {
+    const Vector3d r_BN_N(state.data() + StateLayout::position());
+    const Vector3d v_BN_N(state.data() + StateLayout::velocity());
+    const Vector3d g = gravity(r_BN_N), a = acceleration(r_BN_N, v_BN_N, g);
+    std::copy_n(v_BN_N.data(), 3, rate.data() + StateLayout::position());
+    std::copy_n(a.data(), 3, rate.data() + StateLayout::velocity());
+    if (books != nullptr) *books = book_rates(v_BN_N, g);
+  }
+
   Eigen::MatrixXd mass_matrix(std::span<const double>) override {
     place(Vector3d::Zero(), Vector3d::Zero());
     mj_crb(model_.get(), data_.get());
@@ -47,10 +57,10 @@ class MujocoPointMass final : public PointMassEngine {
     return loaded;
   }
 
-  Vector3d acceleration(const Vector3d& r_BN_N, const Vector3d& v_BN_N) override {
+  /// Of the hub origin [m/s^2]. @param g  gravity there
+  Vector3d acceleration(const Vector3d& r_BN_N, const Vector3d& v_BN_N, const Vector3d& g) {
     const mjModel* m = model_.get();
     mjData* d = data_.get();
-    const Vector3d g = gravity(r_BN_N);
     place(raw_ ? r_BN_N : Vector3d::Zero(), raw_ ? v_BN_N : Vector3d::Zero());
     mj_crb(m, d);
     mj_factorM(m, d);
