@@ -29,8 +29,7 @@ class Batch::Reading {
     read_signals(signals_, seen, row);
   }
   void note(double time, std::span<const double> state, std::span<double> row) {
-    waiting_.note(time, state);
-    waiting_.add(row);
+    waiting_.add(time, state, row);
     if (waiting_.is_full()) finish();
   }
   void finish() {

@@ -65,6 +65,7 @@ struct Quaternion {
   S w;
   Vec<S> v;
 
+  Quaternion(const S& w_of, const Vec<S>& v_of) : w(w_of), v(v_of) {}
   Quaternion(const Number<S>* state, int at)
       : w(entry<S>(state, at)),
         v{entry<S>(state, at + 1), entry<S>(state, at + 2), entry<S>(state, at + 3)} {}
@@ -97,11 +98,18 @@ struct Quaternion {
     q_dot.put(rate, at);
   }
 
-  void make_regular() {
+  Quaternion normalised() const {
     const S scale = S(1.0) / root(squared_norm());
-    w = scale * w;
-    v = scale * v;
+    return {scale * w, scale * v};
   }
+  void make_regular() { *this = normalised(); }
 };
+
+/// Its scalar is negative outside the unit ball.
+template <KernelScalar S>
+Quaternion<S> quaternion_of(const Mrp<S>& chart) {
+  const S one(1.0), s2 = dot(chart.sigma, chart.sigma), inverse = one / (one + s2);
+  return {(one - s2) * inverse, (S(2.0) * inverse) * chart.sigma};
+}
 
 }  // namespace twincraft::bsm::TWINCRAFT_KERNEL

@@ -1,6 +1,7 @@
 // See observer.h. Compiled once per instruction set, like kernel.cpp. Every link is moved from its
 // parent, then all elements are summed up: first where the centre of mass is and how it moves, then
 // what moves about it. Each lane is a state of its own. Tested by tests/runtime/observer_test.cpp.
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -99,6 +100,7 @@ class LaneObserver final : public Observer {
     find_center();
     sum_up();
     add_rotors();
+    put_states(noted);
     put_sums(noted);
   }
 
@@ -279,6 +281,36 @@ class LaneObserver final : public Observer {
       H_scale_ += root(spin * spin);
       kinetic_ += spin * (dot(axis, rotor.axes.of->omega) + S(0.5) * speed);
     }
+  }
+
+  /// What a state shows by itself.
+  void put_states(std::span<const Noted> noted) const {
+    const auto* numbers = reinterpret_cast<const double*>(state_.data());
+    const Quaternion<S> q_BN = chart_ == AttitudeChart::kMrp
+                                   ? quaternion_of(Mrp<S>(numbers, Layout::kAttitude))
+                                   : Quaternion<S>(numbers, Layout::kAttitude).normalised();
+    const S sign = chosen(S(0.0) > q_BN.w, S(-1.0), S(1.0));
+    const S w = sign * q_BN.w;
+    const Vector v = sign * q_BN.v;
+    for (std::size_t l = 0; l < noted.size(); ++l) {
+      const double* state = noted[l].state;
+      Observation& to = *noted[l].seen;
+      to.r_BN_N = Vector3d::Map(state);
+      to.v_BN_N = Vector3d::Map(state + 3);
+      to.q_BN.w() = lane(w, l);
+      to.q_BN.x() = lane(v.x, l);
+      to.q_BN.y() = lane(v.y, l);
+      to.q_BN.z() = lane(v.z, l);
+      to.omega_BN_B = Vector3d::Map(state + layout_.omega);
+      const std::size_t joints = links_.size() - 1;
+      put(state + layout_.joint, joints, to.joint_position);
+      put(state + layout_.joint_rate, joints, to.joint_rate);
+      put(state + layout_.wheel, rotors_.size(), to.wheel_rate);
+    }
+  }
+  static void put(const double* from, std::size_t count, std::vector<double>& to) {
+    if (to.size() != count) to.resize(count);
+    std::copy_n(from, count, to.data());
   }
 
   void put_sums(std::span<const Noted> noted) const {

@@ -27,8 +27,8 @@ class Observer {
   /// How many states are summed up at once.
   virtual std::size_t lanes() const = 0;
 
-  /// Set all of `seen` that is a sum over mass elements, rotors and springs. What comes of a state
-  /// depends on no other. @pre there are 1 to lanes() of them
+  /// Set all of `seen` but the time. What comes of a state depends on no other.
+  /// @pre there are 1 to lanes() of them
   virtual void observe(std::span<const Noted> noted) = 0;
 };
 

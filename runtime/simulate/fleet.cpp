@@ -32,8 +32,8 @@ class Watched {
   }
 
   void sample(double time, std::span<const double> state, const AcceptedErrors& accepted = {}) {
-    refuse_absurd(waiting_.note(time, state), model());
-    waiting_.add(accepted);
+    refuse_absurd(state, engine_->layout(), model());
+    waiting_.add(time, state, accepted);
     if (waiting_.is_full()) deliver();
   }
   void fail(std::string what) {

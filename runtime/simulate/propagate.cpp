@@ -102,8 +102,8 @@ class RecordedRun::Recording {
 
   void record() {
     recorded_at_ = flight_.time();
-    refuse_absurd(waiting_.note(recorded_at_, flight_.state()), model_);
-    waiting_.add(flight_.books());
+    refuse_absurd(flight_.state(), engine_.layout(), model_);
+    waiting_.add(recorded_at_, flight_.state(), flight_.books());
     ++trajectory_.recorded;
     due_.taken(recorded_at_);
     if (waiting_.is_full()) deliver();

@@ -2,7 +2,10 @@
 // Tested by tests/runtime/propagate_test.cpp.
 #pragma once
 
+#include <span>
+
 #include "runtime/engine/observation.h"
+#include "runtime/engine/state.h"
 
 namespace twincraft {
 
@@ -18,10 +21,12 @@ class SampleTimes {
  private:
   const Model& model_;
   double tolerance_;
-  double next_ = 0.0;
+  double count_ = 0.0;  // of intervals until the next
+  double next_ = 0.0;   // [s]
 };
 
-/// A state may be finite and still no motion. @throws NumericalFailure
-void refuse_absurd(const Observation& seen, const Model& model);
+/// A state may be finite and still no motion. @param state  and perhaps more behind it
+/// @throws NumericalFailure
+void refuse_absurd(std::span<const double> state, const StateLayout& layout, const Model& model);
 
 }  // namespace twincraft

@@ -34,15 +34,12 @@ class WaitingSamples {
       samples_.push_back(std::make_unique<Sample>(engine.layout()));
   }
 
-  /// @return what shows of the state itself; the sums over the vehicle come before it is taken
-  /// @pre not is_full(), and what was noted before was added or all delivered
-  const Observation& note(double time, std::span<const double> state) {
-    Observation& seen = samples_[count_]->seen;
-    engine_.note(time, state, seen);
-    return seen;
+  /// @pre not is_full()
+  void add(double time, std::span<const double> state, const Beside& beside) {
+    Sample& sample = *samples_[count_++];
+    engine_.note(time, state, sample.seen);
+    sample.beside = beside;
   }
-  /// Make a sample of what was noted. What is noted and not added is no sample.
-  void add(const Beside& beside) { samples_[count_++]->beside = beside; }
 
   /// There are as many as the engine sums up at once: deliver() before the next.
   bool is_full() const { return count_ + 1 == samples_.size(); }

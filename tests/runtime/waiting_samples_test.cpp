@@ -1,4 +1,4 @@
-// Samples that wait are taken in their order, each once and summed up, and none that was not added.
+// Samples that wait are taken in their order, each once and summed up.
 #include "runtime/simulate/waiting_samples.h"
 
 #include <gmock/gmock.h>
@@ -34,8 +34,7 @@ class PatientEngine : public ToyEngine {
 class Waiting : public testing::Test {
  protected:
   void add(double time) {
-    waiting_.note(time, state_);
-    waiting_.add(static_cast<int>(-time));
+    waiting_.add(time, state_, static_cast<int>(-time));
   }
   std::vector<double> deliver(std::size_t most = 100) {
     std::vector<double> times;
@@ -85,17 +84,6 @@ TEST_F(Waiting, AreForgottenWhereNoMoreAreTaken) {
   EXPECT_THAT(deliver(), IsEmpty());
   add(4.0);
   EXPECT_THAT(deliver(), ElementsAre(4.0));
-}
-
-TEST_F(Waiting, AreNotThoseThatWereNotedAndNotAdded) {
-  add(1.0);
-  EXPECT_EQ(waiting_.note(2.0, state_).time, 2.0);
-  EXPECT_THAT(deliver(), ElementsAre(1.0));
-  EXPECT_THAT(engine_.noted, IsEmpty());  // else it would write where nothing is any more
-  EXPECT_EQ(waiting_.last().seen.time, 1.0);
-  (void)waiting_.note(3.0, state_);
-  EXPECT_THAT(deliver(), IsEmpty());
-  EXPECT_THAT(engine_.noted, IsEmpty());
 }
 
 }  // namespace
