@@ -1,5 +1,5 @@
-// What changes the books of a vehicle, from what an evaluation left in memory: summed over hub and
-// limbs as their laws are, without a second motion of the tree.
+// What a vehicle's evaluation leaves to its books, from what is in memory after it: summed over hub
+// and limbs as their laws are, without a second motion of the tree.
 // Tested by tests/runtime/books_test.cpp.
 #pragma once
 
@@ -14,102 +14,78 @@ class Bookkeeper {
  public:
   /// @param state  at which the vehicle's derivative() has last been asked
   Bookkeeper(Vehicle<H, S>& vehicle, const Number<H>* state)
-      : vehicle_(vehicle),
-        particles_(vehicle.limbs_),
-        state_(state),
-        omega_(vehicle.vector(state, vehicle.layout_.omega)) {}
+      : vehicle_(vehicle), particles_(vehicle.limbs_), state_(state) {}
 
-  BooksOf<H> books() {
-    if (vehicle_.tanks_.flow()) return books_of_motion<true>();
-    if (falls() || acts()) return books_of_motion<false>();
-    BooksOf<H> books;
-    books.power = books.own_power = with_rotors(inner_power());
-    return books;
+  /// All that changes the books, where BookCauses::are_inner().
+  H inner_power() const {
+    return with_rotors(of_limbs<Power>([&](const auto& limb, Power<S>& sum) {
+                         sum.power += limb.inner_power(state_);
+                       }).power);
+  }
+
+  /// Lets limbs know their velocities.
+  void write(BookPage<H>& page) {
+    const BookCauses& causes = vehicle_.book_causes();
+    page.omega = vehicle_.vector(state_, vehicle_.layout_.omega);
+    if (causes.drive && !causes.flow) page.leaving = page.driving = page.turning = {};
+    write_particles(causes, page);
+    write_trees(causes, page);
+    add(vehicle_.mass_.mass, vehicle_.mass_.moment, page.mass);
+    page.motion.value = with_rotors(page.motion.value);
+    if (causes.fall) page.fall = fall();
+    if (causes.drive) write_driving(causes, page);
+    if (causes.pull) write_pulls(page);
+    if (!vehicle_.turns_alone_)
+      page.dcm_NB = vehicle_.dcm_NB_;
+    else if (causes.drive)
+      page.dcm_NB = attitude();
   }
 
  private:
-  bool falls() const { return vehicle_.plan_.law != GravityLaw::kNone; }
-  bool loads_act() const {
-    return vehicle_.acts_on_hub_ || vehicle_.acts_on_limbs_ || vehicle_.push_.acts();
-  }
-  bool acts() const { return loads_act() || vehicle_.has_elements_; }
-
   H with_rotors(H power) const {
     for (const RotorOn<H, H>& rotor : vehicle_.rotors_) power += rotor.power(state_);
     return power;
   }
-  /// Of limbs.
-  H inner_power() const {
-    return of_limbs<Power>(
-               [&](const auto& limb, Power<S>& sum) { sum.power += limb.inner_power(state_); })
-        .power;
-  }
 
-  /// @tparam kFlow  mass leaves the tanks
-  template <bool kFlow>
-  BooksOf<H> books_of_motion() {
-    BooksOf<H> books;
-    Change<H> change;
-    const MassMotion<H> mass = motion<kFlow>(change);
-    books.power = books.own_power = with_rotors(mass.inner_power);
-    if (falls()) books.force_N = mass.moment.mass * fall();
-    if (kFlow || acts()) book<kFlow>(change, mass, books);
-    return books;
-  }
-
-  /// Lets limbs know their velocities. @param change  receives what leaves
-  template <bool kFlow>
-  MassMotion<H> motion(Change<H>& change) {
-    MassMotion<H> all;
-    if (vehicle_.limbs_.has_particles()) {
-      Power<S> power{};
-      vehicle_.limbs_.for_each_particle([&](auto& group) {
-        power.power += group.limb.inner_power(state_);
-        group.limb.trace(state_);
-      });
-      if constexpr (kFlow)
-        all = particles_.motion(omega_, change);
-      else
-        all = particles_.motion();
-      all.inner_power = total<true>(power).power;
-    }
-    add_trees<MassMotion>(all, [&](auto& limb, MassMotion<S>& sum) {
-      sum.inner_power += limb.inner_power(state_);
-      limb.trace(state_);
-      limb.add_motion(sum);
+  void write_particles(const BookCauses& causes, BookPage<H>& page) {
+    Power<S> power{};
+    vehicle_.limbs_.for_each_particle([&](auto& group) {
+      power.power += group.limb.inner_power(state_);
+      group.limb.trace(state_);
     });
-    if constexpr (kFlow)
-      add_trees<Change>(change, [](const auto& limb, Change<S>& sum) { limb.add_leaving(sum); });
-    all.moment += {vehicle_.mass_.mass, vehicle_.mass_.moment};
-    if (kFlow && vehicle_.draining_.drains()) change.add(vehicle_.draining_.mass_rate(), omega_);
-    return all;
+    if (causes.flow)
+      particles_.put_motion_and_leaving(page);
+    else
+      particles_.put_motion(page);
+    page.motion.value += total<true>(power).power;
   }
-
-  /// @param change  of it what leaves; receives all else
-  template <bool kFlow>
-  void book(Change<H>& change, const MassMotion<H>& mass, BooksOf<H>& books) {
-    const H minus_inverse = H(-1.0) / mass.moment.mass;
-    const Vec<H> r_BC = minus_inverse * mass.moment.moment;
-    const Vec<H> v_BC = plus_cross(minus_inverse * mass.momentum, omega_, r_BC);
-    if (vehicle_.turns_alone_) vehicle_.dcm_NB_ = attitude();
-    const Mat<H>& dcm_NB = vehicle_.dcm_NB_;
-    if (loads_act()) change.add(loads(r_BC), omega_);
-    if (kFlow || loads_act()) {  // which no potential covers
-      const Vec<H> v_BN_N = vehicle_.vector(state_, 3);
-      const Vec<H> from_B = dcm_NB * change.pull.force;
-      const Vec<H> force_N = from_B + change.leaving.mass * v_BN_N;
-      books.force_N += force_N;
-      books.power += change.power + H(0.5) * dot(from_B + force_N, v_BN_N);
-      if (kFlow && falls()) books.power += lost_potential(r_BC, change.leaving);
+  void write_trees(const BookCauses& causes, BookPage<H>& page) {
+    for_each_tree<MassMotion>(
+        [&](auto& limb, MassMotion<S>& sum) {
+          sum.inner_power += limb.inner_power(state_);
+          limb.trace(state_);
+          limb.add_motion(sum);
+        },
+        [&page](const MassMotion<S>& sum, auto is_full) {
+          gather<is_full>(sum.moment.mass, sum.moment.moment, page.mass);
+          gather<is_full>(sum.inner_power, sum.momentum, page.motion);
+        });
+    if (!causes.flow) return;
+    for_each_tree<Leaving>([](const auto& limb, Leaving<S>& sum) { limb.add_leaving(sum); },
+                           [&page](const Leaving<S>& sum, auto is_full) {
+                             gather<is_full>(sum.moment.mass, sum.moment.moment, page.leaving);
+                             gather<is_full>(sum.power, sum.pull.force, page.driving);
+                             gather<is_full>(S(0.0), sum.pull.torque, page.turning);
+                           });
+  }
+  void write_driving(const BookCauses& causes, BookPage<H>& page) const {
+    page.v_BN_N = vehicle_.vector(state_, 3);
+    if (vehicle_.acts_beyond_hub_) {
+      const Outside<H> loads = loads_beyond_hub(page);
+      add(loads.power + dot(page.omega, loads.pull.torque), loads.pull.force, page.driving);
+      page.turning.vector += loads.pull.torque;
     }
-    if (vehicle_.has_elements_) {
-      const Outside<H> pulls = gravity();  // differences from that at B
-      books.force_N += dcm_NB * pulls.pull.force;
-      books.power += pulls.turn_power;
-      change.add(pulls, omega_);
-    }
-    books.own_power += change.template power_about<kFlow>(v_BC);
-    books.torque_PntC_N = dcm_NB * change.template torque_about<kFlow>(r_BC, v_BC);
+    if (causes.flow && causes.fall) write_lost_potential(page);
   }
   // What a vehicle that turns alone does not leave behind.
   Vec<H> fall() const {
@@ -123,12 +99,11 @@ class Bookkeeper {
                : Quaternion<H>(state_, Layout::kAttitude).dcm_NB();
   }
 
-  Outside<H> loads(const Vec<H>& r_BC) const {
-    Outside<H> outside{vehicle_.held_};
+  Outside<H> loads_beyond_hub(const BookPage<H>& page) const {
+    Outside<H> outside;
     if (vehicle_.push_.acts()) outside.pull.add(vehicle_.pushed_);
-    const Vec<H> r_CB = -r_BC;
+    const Vec<H> r_CB = (H(1.0) / page.mass.value) * page.mass.vector;
     if (vehicle_.acts_at_center_) outside.pull.add(vehicle_.held_at_center_, r_CB);
-    if (!vehicle_.acts_on_limbs_ && !vehicle_.push_.acts()) return outside;
     const Vec<S> r_CB_S = vehicle_.spread(r_CB);
     const Vec<S>* at = vehicle_.acts_at_center_ ? &r_CB_S : nullptr;
     outside +=
@@ -136,34 +111,44 @@ class Bookkeeper {
     return outside;
   }
 
-  Outside<H> gravity() const {
-    Outside<H> outside;
-    if (vehicle_.limbs_.has_particles()) outside = particles_.gravity(vehicle_.field_);
+  /// Differences from that at B.
+  void write_pulls(BookPage<H>& page) const {
+    particles_.put_pulls(vehicle_.field_, page);
     const Field<S> field = vehicle_.spread(vehicle_.field_);
-    add_trees<Outside>(outside,
-                       [&](const auto& limb, Outside<S>& sum) { limb.add_gravity(field, sum); });
-    if (vehicle_.pulls_on_hub_) {
-      outside.pull.add(vehicle_.pulled_hub_);
-      outside.turn_power += dot(vehicle_.turned_hub_, omega_);
-    }
-    return outside;
+    for_each_tree<Outside>([&](const auto& limb, Outside<S>& sum) { limb.add_gravity(field, sum); },
+                           [&page](const Outside<S>& sum, auto is_full) {
+                             gather<is_full>(sum.power, sum.pull.force, page.pulls);
+                             gather<is_full>(sum.turn_power, sum.pull.torque, page.twists);
+                           });
+    if (!vehicle_.pulls_on_hub_) return;
+    page.pulls.vector += vehicle_.pulled_hub_.force;
+    add(dot(vehicle_.turned_hub_, page.omega), vehicle_.pulled_hub_.torque, page.twists);
   }
 
-  /// Beyond that of the same mass where B is and does not move.
-  H lost_potential(const Vec<H>& r_BC, const Moment<H>& lost) const {
+  /// Of mass that leaves, beyond that of the same mass where B is and does not move.
+  void write_lost_potential(BookPage<H>& page) const {
     const Field<H>& field = vehicle_.field_;
-    H power = -(lost.mass * field.mu * root(field.inverse_r2));
-    if (vehicle_.plan_.law == GravityLaw::kSystemCom)  // the field is that at C
-      power -= dot(field.at_hub(), lost.moment + lost.mass * r_BC);
-    if (!vehicle_.has_elements_) return power;
-    Power<H> lift;
-    if (vehicle_.limbs_.has_particles()) lift = particles_.lift(field);
+    const LinkMass<H>& of_hub = vehicle_.draining_.mass_rate();
+    const H lost = page.leaving.value + of_hub.mass;
+    H& power = page.turning.value;
+    power -= lost * field.mu * root(field.inverse_r2);
+    if (vehicle_.plan_.law == GravityLaw::kSystemCom) {  // the field is that at C
+      const Vec<H> r_CB = (H(1.0) / page.mass.value) * page.mass.vector;
+      power -= dot(field.at_hub(), page.leaving.vector + of_hub.moment - lost * r_CB);
+    }
+    if (!vehicle_.has_elements_) return;
+    power += particles_.lift(field);
     const Field<S> field_S = vehicle_.spread(field);
-    add_trees<Power>(lift, [&](const auto& limb, Power<S>& sum) { limb.add_lifted(field_S, sum); });
-    power += lift.power;
+    for_each_tree<Power>(
+        [&](const auto& limb, Power<S>& sum) { limb.add_lifted(field_S, sum); },
+        [&power](const Power<S>& sum, auto is_full) { power += total<is_full>(sum).power; });
     for (std::size_t e = 0; e < vehicle_.elements_.size(); ++e)
       power += lifted(vehicle_.draining_.element_rate(e), vehicle_.elements_[e].r_EL, field);
-    return power;
+  }
+
+  static void add(const H& value, const Vec<H>& vector, Four<H>& to) {
+    to.value += value;
+    to.vector += vector;
   }
 
   /// @param add  what a limb says, or like ones side by side, to a sum
@@ -175,16 +160,17 @@ class Bookkeeper {
       vehicle_.limbs_.for_each_particle([&](auto& group) { add(group.limb, particles); });
       all = total<true>(particles);
     }
-    add_trees<Sum>(all, add);
+    for_each_tree<Sum>(add,
+                       [&all](const Sum<S>& sum, auto is_full) { all += total<is_full>(sum); });
     return all;
   }
-  /// But of particles.
-  template <template <class> class Sum, class Add>
-  void add_trees(Sum<H>& all, const Add& add) const {
+  /// But of particles. @param take  takes what like ones say, and whether all their lanes count
+  template <template <class> class Sum, class Add, class Take>
+  void for_each_tree(const Add& add, const Take& take) const {
     vehicle_.limbs_.for_each_tree([&](auto& group) {
       Sum<S> limbs{};
       add(group.limb, limbs);
-      all += group.is_full ? total<true>(limbs) : total<false>(limbs);
+      group.is_full ? take(limbs, std::true_type()) : take(limbs, std::false_type());
     });
   }
   // See gathered().
@@ -197,16 +183,8 @@ class Bookkeeper {
     return {total<kIsFull>(v.x), total<kIsFull>(v.y), total<kIsFull>(v.z)};
   }
   template <bool kIsFull>
-  static Moment<H> total(const Moment<S>& m) {
-    return {total<kIsFull>(m.mass), total<kIsFull>(m.moment)};
-  }
-  template <bool kIsFull>
   static Power<H> total(const Power<S>& p) {
     return {total<kIsFull>(p.power)};
-  }
-  template <bool kIsFull>
-  static MassMotion<H> total(const MassMotion<S>& m) {
-    return {total<kIsFull>(m.moment), total<kIsFull>(m.momentum), total<kIsFull>(m.inner_power)};
   }
   template <bool kIsFull>
   static Outside<H> total(const Outside<S>& o) {
@@ -215,16 +193,14 @@ class Bookkeeper {
             total<kIsFull>(o.turn_power)};
   }
   template <bool kIsFull>
-  static Change<H> total(const Change<S>& c) {
-    return {total<kIsFull>(c.leaving),
-            {total<kIsFull>(c.pull.force), total<kIsFull>(c.pull.torque)},
-            total<kIsFull>(c.power)};
+  static void gather(const S& value, const Vec<S>& v, Four<H>& to) {
+    add_two_gathered<kIsFull>(&to.value, value, v.x);
+    add_two_gathered<kIsFull>(&to.vector.y, v.y, v.z);
   }
 
   Vehicle<H, S>& vehicle_;
   ParticleBooks<H, S> particles_;
   const Number<H>* state_;
-  Vec<H> omega_;
 };
 
 }  // namespace twincraft::bsm::TWINCRAFT_KERNEL

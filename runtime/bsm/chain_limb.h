@@ -44,7 +44,7 @@ class ChainLimb {
   void add_motion(MassMotion<S>& sum) const { sum += chain_.motion(); }
   void add_loads(const Vec<S>*, Outside<S>&) const {}
   void add_gravity(const Field<S>&, Outside<S>& sum) const { sum += chain_.gravity(); }
-  void add_leaving(Change<S>&) const {}
+  void add_leaving(Leaving<S>&) const {}
   void add_lifted(const Field<S>&, Power<S>&) const {}
 
  private:

@@ -93,9 +93,14 @@ class BsmEngine final : public Engine {
 
   void derivative(double time, std::span<const double> state, std::span<double> rate,
                   BookRates* books) override {
-    if (books != nullptr) return evaluate_and_book(time, state, rate, *books);
+    if (books != nullptr) return derivative_and_books(time, state, rate, *books);
     kernel_->derivative(time, state.data(), rate.data());
   }
+  void derivative_to_book(double time, std::span<const double> state, std::span<double> rate,
+                          BookRates& books) override {
+    kernel_->derivative_to_book(time, state.data(), rate.data(), &books);
+  }
+  void settle_books() override { kernel_->settle_books(); }
 
   void finish_step(std::span<double> state) override { kernel_->finish_step(state.data()); }
 
@@ -105,7 +110,6 @@ class BsmEngine final : public Engine {
   }
   std::size_t summed_at_once() const override { return observer_->lanes(); }
   void note(double time, std::span<const double> state, Observation& seen) override {
-    unpack(state, layout(), seen);
     seen.time = time;
     notebook_.add(state, propellant_.shares(time), seen);
   }
@@ -149,10 +153,10 @@ class BsmEngine final : public Engine {
 
  private:
   // Apart from derivative(), which without it is a jump into the kernel.
-  [[gnu::noinline]] void evaluate_and_book(double time, std::span<const double> state,
-                                           std::span<double> rate, BookRates& books) {
-    kernel_->derivative(time, state.data(), rate.data());
-    kernel_->books(state.data(), {&books, 1});
+  [[gnu::noinline]] void derivative_and_books(double time, std::span<const double> state,
+                                              std::span<double> rate, BookRates& books) {
+    BsmEngine::derivative_to_book(time, state, rate, books);
+    BsmEngine::settle_books();
   }
 
   std::shared_ptr<const Machine> machine_;

@@ -2,13 +2,21 @@
 // that set may come out of it: tests/architecture looks. Tested by tests/runtime/kernel_test.cpp.
 #include "runtime/bsm/kernel.h"
 
+#include "runtime/bsm/book_page.h"
 #include "runtime/bsm/vehicle.h"
 
 namespace twincraft::bsm::TWINCRAFT_KERNEL {
 
-/// In kernel_books.cpp. @pre the vehicle's derivative() has last been asked at this state
+// In kernel_books.cpp.
+
+/// On the next page. When all are written they are settled.
+/// @pre the vehicle's derivative() has last been asked at this state
 template <class H, class S>
-void put_books(Vehicle<H, S>& vehicle, const Number<H>* state, std::span<BookRates> rates);
+void write_books(Vehicle<H, S>& vehicle, const Number<H>* state, BookPages<H>& pages,
+                 BookRates* rates);
+/// Of all pages, which then are free.
+template <class H, class S>
+void settle_books(const Vehicle<H, S>& vehicle, BookPages<H>& pages);
 
 namespace {
 
@@ -18,13 +26,19 @@ class VehicleKernel final : public Kernel {
   explicit VehicleKernel(std::span<const Plan* const> plans) : vehicle_(plans) {}
 
   std::size_t lanes() const override { return kLanes<H>; }
-  void hold(std::span<const HeldInputs* const> held) override { vehicle_.hold(held); }
+  void hold(std::span<const HeldInputs* const> held) override {
+    pages_.clear();  // of a step that did not come to its end
+    vehicle_.hold(held);
+  }
   void derivative(double time, const double* state, double* rate) override {
     vehicle_.derivative(time, state, rate);
   }
-  void books(const double* state, std::span<BookRates> rates) override {
-    put_books(vehicle_, state, rates);
+  void derivative_to_book(double time, const double* state, double* rate,
+                          BookRates* books) override {
+    vehicle_.derivative(time, state, rate);
+    write_books(vehicle_, state, pages_, books);
   }
+  void settle_books() override { TWINCRAFT_KERNEL::settle_books<H, S>(vehicle_, pages_); }
   void finish_step(double* state) const override { vehicle_.finish_step(state); }
 
   void hub_equation(std::span<double, 42> equation) const override {
@@ -56,6 +70,7 @@ class VehicleKernel final : public Kernel {
 
  private:
   Vehicle<H, S> vehicle_;
+  BookPages<H> pages_;
 };
 
 }  // namespace

@@ -26,8 +26,12 @@ class Kernel {
   /// rate = d(state)/dt at `time` [s], laid out as runtime/engine/state.h says. Tanks are as full
   /// as they are then, under the flows that are held.
   virtual void derivative(double time, const double* state, double* rate) = 0;
-  /// What changes the books, one per lane. @pre derivative() has last been asked at this state
-  virtual void books(const double* state, std::span<BookRates> rates) = 0;
+  /// The same, and what changes the books: one `books` per lane, set by settle_books() or sooner,
+  /// for several are made at once. They stay where they are until then.
+  virtual void derivative_to_book(double time, const double* state, double* rate,
+                                  BookRates* books) = 0;
+  /// Before the next hold().
+  virtual void settle_books() = 0;
   /// MRP shadow switch or quaternion normalisation, in place.
   virtual void finish_step(double* state) const = 0;
   /// The hub's equation [A B; C D] (a, omegaDot) = (vT, vR) of the last derivative() of lane 0, as

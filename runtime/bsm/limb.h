@@ -143,7 +143,7 @@ class Limb {
   /// What is held, and what follows the motion. @param r_CB  as of contribute()
   void add_loads(const Vec<S>* r_CB, Outside<S>& sum) const;
   void add_gravity(const Field<S>& field, Outside<S>& sum) const;
-  void add_leaving(Change<S>& sum) const;
+  void add_leaving(Leaving<S>& sum) const;
   /// See lifted().
   void add_lifted(const Field<S>& field, Power<S>& sum) const;
 

@@ -80,7 +80,7 @@ void Limb<H, S>::add_gravity(const Field<S>& field, Outside<S>& sum) const {
 
 template <class H, class S>
 requires KernelScalars<H, S>
-void Limb<H, S>::add_leaving(Change<S>& sum) const {
+void Limb<H, S>::add_leaving(Leaving<S>& sum) const {
   for (const DrainingLink& draining : draining_)
     sum.add(draining.drain.mass_rate(), motions_[draining.link].at);
 }

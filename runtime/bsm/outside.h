@@ -1,10 +1,9 @@
-// What the books of one evaluation are made of, and what they come to. The kernel sums it up limb
-// by limb from what the evaluation left in memory. The velocity of the hub's origin B is taken as
-// zero until the end: on orbit it would cost four digits. All sums are about B, and limbs say how
-// they move as seen from the hub's axes, for the hub's own rotation omega is soon added to any sum:
-// with v = omega x r + w,
+// What limbs are asked for by the books, summed up from what an evaluation left in memory. The
+// velocity of the hub's origin B is taken as zero until the end: on orbit it would cost four
+// digits. All sums are about B, and limbs say how they move as seen from the hub's axes, for the
+// hub's own rotation omega is soon added to any sum: with v = omega x r + w,
 //   sum m v = omega x sum m r + sum m w,  sum F.v = omega . sum r x F + sum F.w
-// What leaves is told with v itself. When all is summed it is moved to the centre of mass C.
+// What leaves is told with v itself.
 // Tested by tests/runtime/books_test.cpp (against sums over elements in plain doubles).
 #pragma once
 
@@ -61,11 +60,6 @@ struct Outside {
     pull.torque += on_link.torque + cross(link.r_LB, on_link.force);
     power += dot(on_link.force, link.v_LB) + dot(on_link.torque, link.omega);
   }
-  /// On a particle. @param r, v  of it
-  void add_at(const Vec<S>& force, const Vec<S>& r, const Vec<S>& v) {
-    pull.add(force, r);
-    power += dot(force, v);
-  }
   /// As of MassMotion.
   void carry(const MountMotion<S>& mount) {
     power +=
@@ -86,57 +80,23 @@ struct Outside {
   }
 };
 
-/// What changes momentum, angular momentum and energy: forces, and mass that leaves as it moves.
+/// What leaves with mass that leaves as it moves.
 template <class S>
-struct Change {
-  Moment<S> leaving;  // [kg/s], [kg m/s]
-  Pull<S> pull;       // [N], [N m] about B
-  S power{};          // [W]
+struct Leaving {
+  Moment<S> moment;  // [kg/s], [kg m/s]
+  Pull<S> pull;      // [N], [N m] momentum, and angular momentum about B
+  S power{};         // [W]
 
-  /// @param omega  of the hub
-  void add(const Outside<S>& forces, const Vec<S>& omega) {
-    pull.add(forces.pull);
-    power += forces.power + dot(omega, forces.pull.torque);
-  }
-  /// What leaves a link, which moves as told.
+  /// @param link  how it moves
   void add(const LinkMass<S>& rate, const MountMotion<S>& link) {
     const Vec<S> first = link.dcm_WL * rate.moment;
     const Vec<S> spin = link.dcm_WL * (rate.J * transposed(link.dcm_WL, link.omega));
     const Vec<S> momentum = plus_cross(rate.mass * link.v_LB, link.omega, first);
     const Vec<S> H_PntL_B = plus_cross(spin, first, link.v_LB);  // about the link's origin
-    leaving += {rate.mass, rate.mass * link.r_LB + first};
+    moment += {rate.mass, rate.mass * link.r_LB + first};
     pull.force += momentum;
     pull.torque += plus_cross(H_PntL_B, link.r_LB, momentum);
     power += S(0.5) * (dot(momentum, link.v_LB) + dot(H_PntL_B, link.omega));
-  }
-  /// What leaves the hub.
-  void add(const LinkMass<S>& rate, const Vec<S>& omega) {
-    const Vec<S> spin = rate.J * omega;
-    leaving += {rate.mass, rate.moment};
-    pull.force = plus_cross(pull.force, omega, rate.moment);
-    pull.torque += spin;
-    power += S(0.5) * dot(spin, omega);
-  }
-  Change& operator+=(const Change& o) {
-    leaving += o.leaving;
-    pull.add(o.pull);
-    power += o.power;
-    return *this;
-  }
-
-  // The same about the centre of mass C, which moves by -v_BC. What C itself does drops out of the
-  // books: neither sum of m (r - r_C) nor of m (v - v_C) is anything.
-  /// @tparam kLeaves  else no mass does
-  template <bool kLeaves>
-  S power_about(const Vec<S>& v_BC) const {
-    if constexpr (!kLeaves) return power + dot(pull.force, v_BC);
-    return power + dot(v_BC, pull.force + (S(0.5) * leaving.mass) * v_BC);
-  }
-  template <bool kLeaves>
-  Vec<S> torque_about(const Vec<S>& r_BC, const Vec<S>& v_BC) const {
-    if constexpr (!kLeaves) return plus_cross(pull.torque, r_BC, pull.force);
-    return plus_cross(plus_cross(pull.torque, leaving.moment, v_BC), r_BC,
-                      pull.force + leaving.mass * v_BC);
   }
 };
 
@@ -146,12 +106,5 @@ S lifted(const S& mass_rate, const Vec<S>& r, const Field<S>& field) {
   const Vec<S> there = field.r + r;
   return mass_rate * field.mu * (root(field.inverse_r2) - S(1.0) / root(dot(there, there)));
 }
-
-/// BookRates in the numbers of the hub.
-template <class H>
-struct BooksOf {
-  H power{}, own_power{};
-  Vec<H> force_N, torque_PntC_N;
-};
 
 }  // namespace twincraft::bsm::TWINCRAFT_KERNEL

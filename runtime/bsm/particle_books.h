@@ -3,8 +3,8 @@
 // Tested by tests/runtime/books_test.cpp.
 #pragma once
 
+#include "runtime/bsm/book_page.h"
 #include "runtime/bsm/limbs.h"
-#include "runtime/bsm/outside.h"
 
 namespace twincraft::bsm::TWINCRAFT_KERNEL {
 
@@ -16,47 +16,53 @@ class ParticleBooks {
 
   explicit ParticleBooks(const Limbs<H, S>& limbs) : all_(limbs.particles()) {}
 
-  MassMotion<H> motion() const {
-    Sums<8> sums{};
+  void put_motion(BookPage<H>& page) const {
+    Sums mass{}, motion{};
     for (const Particles& some : all_)
-      add_motion(some, rows(some, Of::kPlace), rows(some, Of::kVelocity), sums);
-    return motion_of(sums);
+      add_motion(some, rows(some, Of::kPlace), rows(some, Of::kVelocity), mass, motion);
+    put(mass, page.mass);
+    put(motion, page.motion);
   }
-  /// The same, and what leaves.
-  MassMotion<H> motion(const Vec<H>& omega, Change<H>& leaving) const {
-    const Vec<W> omega_W = spread(omega);
-    Sums<8> sums{};
-    Sums<12> lost{};
+  /// And what leaves.
+  void put_motion_and_leaving(BookPage<H>& page) const {
+    const Vec<W> omega = spread(page.omega);
+    Sums mass{}, motion{}, leaving{}, driving{}, turning{};
     for (const Particles& some : all_) {
       const Vec<W> r = rows(some, Of::kPlace), w = rows(some, Of::kVelocity);
-      add_motion(some, r, w, sums);
+      add_motion(some, r, w, mass, motion);
       const W rate = row(some, Of::kMassRate);
-      const Vec<W> v = plus_cross(w, omega_W, r), mv = rate * v, H_B = cross(r, mv);
-      add(&lost[0], rate, rate * r);
-      add(&lost[4], W(0.5) * dot(mv, v), mv);
-      add(&lost[8], W(0.0), H_B);
+      const Vec<W> v = plus_cross(w, omega, r), mv = rate * v, H_B = cross(r, mv);
+      add(rate, rate * r, leaving);
+      add(W(0.5) * dot(mv, v), mv, driving);
+      add(W(0.0), H_B, turning);
     }
-    leaving = {{lost[0], three(&lost[1])}, {three(&lost[5]), three(&lost[9])}, lost[4]};
-    return motion_of(sums);
+    put(mass, page.mass);
+    put(motion, page.motion);
+    put(leaving, page.leaving);
+    put(driving, page.driving);
+    put(turning, page.turning);
   }
-  Outside<H> gravity(const Field<H>& of_hub) const {
+  void put_pulls(const Field<H>& of_hub, BookPage<H>& page) const {
     const Field<W> field = spread(of_hub);
-    Sums<8> sums{};
+    Sums pulls{}, twists{};
     for (const Particles& some : all_) {
       const Vec<W> r = rows(some, Of::kPlace);
       const Vec<W> force = row(some, Of::kMass) * field.difference(r);
-      add(&sums[0], dot(force, rows(some, Of::kVelocity)), force);
-      add(&sums[4], W(0.0), cross(r, force));
+      add(dot(force, rows(some, Of::kVelocity)), force, pulls);
+      add(W(0.0), cross(r, force), twists);
     }
-    return {{three(&sums[1]), three(&sums[5])}, sums[0], H(0.0)};
+    put(pulls, page.pulls);
+    put(twists, page.twists);
   }
-  /// See lifted() [W].
-  Power<H> lift(const Field<H>& of_hub) const {
+  /// See lifted().
+  H lift(const Field<H>& of_hub) const {
     const Field<W> field = spread(of_hub);
-    Sums<4> sums{};
+    Sums sums{};
     for (const Particles& some : all_)
-      add(&sums[0], lifted(row(some, Of::kMassRate), rows(some, Of::kPlace), field), {});
-    return {sums[0]};
+      add(lifted(row(some, Of::kMassRate), rows(some, Of::kPlace), field), {}, sums);
+    Four<H> four;
+    put(sums, four);
+    return four.value;
   }
 
  private:
@@ -79,28 +85,30 @@ class ParticleBooks {
             field.has_gradient};
   }
 
-  // Every few particles are summed up at once: sums in registers would be too many for them.
-  template <std::size_t N>
-  using Sums = std::array<H, N>;
-  static void add(H* to, const W& value, const Vec<W>& v) {
+  /// Of as many particles as there are lanes each: sums lane by lane, over all, would be too many
+  /// for the registers.
+  using Sums = std::conditional_t<kLimbs<H, S> == 1, Four<H>, FourSums>;
+  static void add(const W& value, const Vec<W>& v, Sums& to) {
     if constexpr (kLimbs<H, S> == 1) {
-      to[0] += value;
-      to[1] += v.x;
-      to[2] += v.y;
-      to[3] += v.z;
+      to.value += value;
+      to.vector += v;
     } else {
       add_sums_of_lanes(to, {value, v.x, v.y, v.z});
     }
   }
-  static Vec<H> three(const H* sums) { return {sums[0], sums[1], sums[2]}; }
-
-  static void add_motion(const Particles& some, const Vec<W>& r, const Vec<W>& w, Sums<8>& sums) {
-    const W mass = row(some, Of::kMass);
-    add(&sums[0], mass, mass * r);
-    add(&sums[4], W(0.0), mass * w);
+  static void put(const Sums& sums, Four<H>& to) {
+    if constexpr (kLimbs<H, S> == 1) {
+      to = sums;
+    } else {
+      static_assert(sizeof(to) == sizeof(sums));
+      TWINCRAFT_KERNEL::put(sums, &to.value);
+    }
   }
-  static MassMotion<H> motion_of(const Sums<8>& sums) {
-    return {{sums[0], three(&sums[1])}, three(&sums[5]), H(0.0)};
+  static void add_motion(const Particles& some, const Vec<W>& r, const Vec<W>& w, Sums& mass,
+                         Sums& motion) {
+    const W m = row(some, Of::kMass);
+    add(m, m * r, mass);
+    add(W(0.0), m * w, motion);
   }
 
   std::span<const Particles> all_;

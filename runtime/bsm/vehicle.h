@@ -16,6 +16,16 @@ namespace twincraft::bsm::TWINCRAFT_KERNEL {
 template <class H, class S>
 class Bookkeeper;
 
+/// What changes the books of a vehicle, beside motors, efforts and dampers within it.
+struct BookCauses {
+  bool drive = false;  // loads and mass that leaves: no potential covers them
+  bool flow = false;   // mass leaves
+  bool fall = false;   // gravity
+  bool pull = false;   // gravity that differs from that at B
+
+  bool are_inner() const { return !drive && !fall && !pull; }
+};
+
 /// @tparam H  scalar of the hub: a double, or one spacecraft per lane
 /// @tparam S  of the limbs: two like ones per Pair, or H where the lanes are spacecraft
 template <class H, class S>
@@ -48,20 +58,25 @@ class Vehicle {
   }
 
   void hold(Held held) {
-    acts_at_center_ = acts_on_hub_ = acts_on_limbs_ = false;
+    acts_at_center_ = acts_on_hub_ = acts_beyond_hub_ = false;
     for (std::size_t l = 0; l < kLanes<H>; ++l) {
       set_lane(held_.force, l, *held[l]->force_L.data());
       set_lane(held_.torque, l, *held[l]->torque_L.data());
       set_lane(held_at_center_, l, *held[l]->force_at_center_L.data());
       acts_at_center_ = acts_at_center_ || held[l]->acts_at_center;
       acts_on_hub_ = acts_on_hub_ || held[l]->acts_on_hub;
-      acts_on_limbs_ = acts_on_limbs_ || held[l]->acts_on_limbs;
+      acts_beyond_hub_ = acts_beyond_hub_ || held[l]->acts_on_limbs;
       for (std::size_t k = 0; k < rotors_.size(); ++k) {
         rotors_[k].hold(l, held[l]->motor_torque.data()[plans_[l]->hub.rotors.data()[k]]);
       }
       push_.hold(l, *plans_[l], held[l]->inputs);
       tanks_.hold(l, held[l]->inputs);
     }
+    acts_beyond_hub_ = acts_beyond_hub_ || acts_at_center_ || push_.acts();
+    book_causes_ = {.drive = tanks_.flow() || acts_on_hub_ || acts_beyond_hub_,
+                    .flow = tanks_.flow(),
+                    .fall = plan_.law != GravityLaw::kNone,
+                    .pull = has_elements_};
     turns_alone_ = is_rigid_ && !has_elements_ && !acts_at_center_ && !push_.exists();
     for (std::size_t l = 0; l < kLanes<H>; ++l) {
       const auto& held_force = *held[l]->force_L.data();
@@ -107,6 +122,12 @@ class Vehicle {
   }
 
   const Law<H>& last_hub_law() const { return hub_; }
+
+  /// Until the next hold().
+  const BookCauses& book_causes() const { return book_causes_; }
+  const Pull<H>& held_on_hub() const { return held_; }
+  /// How fast it loses mass.
+  const LinkMass<H>& hub_mass_rate() const { return draining_.mass_rate(); }
 
  private:
   friend class Bookkeeper<H, S>;  // reads what an evaluation leaves in memory
@@ -357,8 +378,9 @@ class Vehicle {
   Pull<H> held_;
   Vec<H> held_at_center_;
   bool acts_at_center_ = false;
-  bool acts_on_hub_ = false, acts_on_limbs_ = false;  // what is held, in some lane
-  Vec<H> held_n0_;                                    // of rotors' motors and of what is held
+  bool acts_on_hub_ = false, acts_beyond_hub_ = false;  // in some lane, until the next hold()
+  BookCauses book_causes_;
+  Vec<H> held_n0_;  // of rotors' motors and of what is held
   Limbs<H, S> limbs_;
   bool is_rigid_ = false;      // no limbs, no draining: factored once
   bool turns_alone_ = false;   // see turn_alone()

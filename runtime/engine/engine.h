@@ -56,6 +56,14 @@ class Engine {
     derivative(time, state, rate, nullptr);
   }
 
+  /// The same, but `books` may be set as late as by settle_books(), for several are made at once.
+  /// They stay where they are until then. @pre settle_books() comes before the next hold()
+  virtual void derivative_to_book(double time, std::span<const double> state,
+                                  std::span<double> rate, BookRates& books) {
+    derivative(time, state, rate, &books);
+  }
+  virtual void settle_books() {}
+
   /// After an accepted step: MRP shadow switch or quaternion normalisation, in place.
   virtual void finish_step(std::span<double> state) = 0;
 
@@ -66,9 +74,8 @@ class Engine {
     observe(time, state, seen);
     return seen;
   }
-  /// An observation in two parts, the second for several at once: note() sets what `seen` shows of
-  /// the state itself, sum_up_noted() the sums over the vehicle in all that has been noted since it
-  /// was last called. @pre `seen` stays where it is until then; fewer than summed_at_once() wait
+  /// The same for several at once: all that has been noted since sum_up_noted() was last called is
+  /// set by then. @pre `seen` stays where it is until then; fewer than summed_at_once() wait
   virtual void note(double time, std::span<const double> state, Observation& seen) {
     observe(time, state, seen);
   }

@@ -72,6 +72,7 @@ void RungeKutta::evaluate_stages(double time, double h) {
     sum.add(sum, h, stages, state, trial_.data());
     ode_.derivative(time + tableau_.c[stage] * h, {trial_.data(), size}, {k, size});
   }
+  ode_.finish_rates();
 }
 
 void RungeKutta::restart(std::span<const double> state) {

@@ -24,6 +24,8 @@ class Ode {
   /// How many of them derivative() reads: quadratures lie behind.
   virtual int read_size() const { return size(); }
   virtual void derivative(double time, std::span<const double> state, std::span<double> rate) = 0;
+  /// All rates of a step have been asked for. Those of quadratures may be set as late as here.
+  virtual void finish_rates() {}
   virtual void finish_step(std::span<double> state) = 0;
   /// How its rates may be summed.
   virtual StageAccess access() const { return {}; }

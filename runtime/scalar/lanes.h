@@ -115,21 +115,40 @@ inline simd::batch<double, simd::avx2> entry_of_each(const std::array<const doub
   return _mm256_setr_pd(vectors[0][at], vectors[1][at], vectors[2][at], vectors[3][at]);
 }
 #endif
-/// Add the sums over the lanes of four to to[0] to to[3].
-inline void add_sums_of_lanes(double* to, const std::array<Pair, 4>& of) {
-  for (std::size_t i = 0; i < 4; i += 2) {
-    const Pair first = _mm_unpacklo_pd(of[i], of[i + 1]);
-    const Pair second = _mm_unpackhi_pd(of[i], of[i + 1]);
-    (Pair::load_unaligned(to + i) + (first + second)).store_unaligned(to + i);
-  }
-}
+/// Four numbers.
+using FourSums = std::array<Abreast, 4 / Abreast::size>;
+/// Add the sums over the lanes of each.
+inline void add_sums_of_lanes(FourSums& to, const std::array<Abreast, 4>& of) {
 #if defined(__AVX2__)
-inline void add_sums_of_lanes(double* to,
-                              const std::array<simd::batch<double, simd::avx2>, 4>& of) {
-  using Four = simd::batch<double, simd::avx2>;
-  (Four::load_unaligned(to) + simd::haddp(of.data())).store_unaligned(to);
-}
+  to[0] += simd::haddp(of.data());
+#else
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Pair first = of[2 * i], second = of[2 * i + 1];
+    to[i] += Pair(_mm_unpacklo_pd(first, second)) + Pair(_mm_unpackhi_pd(first, second));
+  }
 #endif
+}
+inline void put(const FourSums& sums, double* to) {
+  for (std::size_t i = 0; i < sums.size(); ++i) sums[i].store_unaligned(to + Abreast::size * i);
+}
+/// Lane l of each, side by side, at to[l].
+inline void put_lanes(const std::array<Abreast, 4>& of,
+                      const std::array<double*, Abreast::size>& to) {
+#if defined(__AVX2__)
+  const __m256d low = _mm256_unpacklo_pd(of[0], of[1]), high = _mm256_unpackhi_pd(of[0], of[1]);
+  const __m256d next_low = _mm256_unpacklo_pd(of[2], of[3]);
+  const __m256d next_high = _mm256_unpackhi_pd(of[2], of[3]);
+  _mm256_storeu_pd(to[0], _mm256_permute2f128_pd(low, next_low, 0x20));
+  _mm256_storeu_pd(to[1], _mm256_permute2f128_pd(high, next_high, 0x20));
+  _mm256_storeu_pd(to[2], _mm256_permute2f128_pd(low, next_low, 0x31));
+  _mm256_storeu_pd(to[3], _mm256_permute2f128_pd(high, next_high, 0x31));
+#else
+  for (std::size_t i = 0; i < 4; i += 2) {
+    _mm_storeu_pd(to[0] + i, _mm_unpacklo_pd(of[i], of[i + 1]));
+    _mm_storeu_pd(to[1] + i, _mm_unpackhi_pd(of[i], of[i + 1]));
+  }
+#endif
+}
 /// The first lane's place is written last.
 inline void put_two_lanes(const Pair& value, double* state, const std::array<int, 2>& places) {
   _mm_storeh_pd(state + places[1], value);

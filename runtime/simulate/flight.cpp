@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <type_traits>
 
@@ -15,21 +16,27 @@ namespace twincraft {
 namespace {
 
 // The books are quadratures appended behind the state: nothing reads them back. Their rates lie
-// there as in BookRates.
+// there as in BookRates, and where the stepper's loads begin, or these would wait for two stores.
 constexpr std::size_t kBooks = 8;
 static_assert(sizeof(BookRates) == kBooks * sizeof(double) && std::is_standard_layout_v<BookRates>);
+
+std::size_t books_behind(std::size_t state_size) {
+  constexpr std::size_t kLanes = WeightedSum::kLanes;
+  return (state_size + kLanes - 1) / kLanes * kLanes;
+}
 
 bool is_adaptive(const Model& model) { return tableau_of(model.simulation.method).adaptive; }
 
 /// A name for every entry of the state and the books behind it.
 std::vector<std::string> entry_names(const Model& model, AttitudeChart chart) {
-  std::vector<Signal> entries = states_of(model, chart);
-  const std::array<Signal, 4> books{{{"work", "", "J", ""},
-                                     {"impulse_N", "xyz", "N s", ""},
-                                     {"angular_impulse_N", "xyz", "N m s", ""},
-                                     {"own_work", "", "J", ""}}};
-  entries.insert(entries.end(), books.begin(), books.end());
-  return component_names(entries);
+  std::vector<std::string> names = component_names(states_of(model, chart));
+  names.resize(books_behind(names.size()));
+  const std::vector<Signal> books{{"work", "", "J", ""},
+                                  {"impulse_N", "xyz", "N s", ""},
+                                  {"angular_impulse_N", "xyz", "N m s", ""},
+                                  {"own_work", "", "J", ""}};
+  std::ranges::copy(component_names(books), std::back_inserter(names));
+  return names;
 }
 
 /// Inputs change there, or a stored state waits: a run has to meet what it is held against.
@@ -73,13 +80,14 @@ class Flight::BookkeepingOde final : public Ode {
  public:
   explicit BookkeepingOde(Engine& engine)
       : engine_(engine), size_(static_cast<std::size_t>(engine.layout().size())) {}
-  int size() const override { return static_cast<int>(size_ + kBooks); }
+  int size() const override { return static_cast<int>(books_behind(size_) + kBooks); }
   int read_size() const override { return static_cast<int>(size_); }
   void derivative(double time, std::span<const double> state, std::span<double> rate) override {
     // Where they belong: a copy would be read while it is on its way to memory.
     auto* books = reinterpret_cast<BookRates*>(rate.last(kBooks).data());
-    engine_.derivative(time, state.first(size_), rate.first(size_), books);
+    engine_.derivative_to_book(time, state.first(size_), rate.first(size_), *books);
   }
+  void finish_rates() override { engine_.settle_books(); }
   void finish_step(std::span<double> state) override { engine_.finish_step(state.first(size_)); }
   StageAccess access() const override { return {engine_.may_use_avx2()}; }
 
@@ -103,6 +111,7 @@ class Flight::ExcusingOde final : public Ode {
       excuse_ = failure.what();
     }
   }
+  void finish_rates() override { ode_.finish_rates(); }
   void finish_step(std::span<double> state) override { ode_.finish_step(state); }
   StageAccess access() const override { return ode_.access(); }
 
@@ -141,8 +150,8 @@ Flight::~Flight() = default;
 
 Books Flight::books() const {
   if (stepper_.size() == size_) return {};
-  const std::span<const double> books{state().data() + size_, kBooks};
-  return {books[0], Vector3d::Map(&books[1]), Vector3d::Map(&books[4]), books[7]};
+  const double* books = state().data() + books_behind(static_cast<std::size_t>(size_));
+  return {books[0], Vector3d::Map(books + 1), Vector3d::Map(books + 4), books[7]};
 }
 
 void Flight::advance(const std::atomic<bool>* stop) {

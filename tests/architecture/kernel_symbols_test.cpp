@@ -84,13 +84,14 @@ TEST_P(KernelSymbols, BelongToTheInstructionSet) {
 
 INSTANTIATE_TEST_SUITE_P(
     Of, KernelSymbols,
-    testing::Values(KernelObjects{"avx2",
-                                  TWINCRAFT_AVX2_OBJECTS,
-                                  {"new_kernel(", "put_books<", "new_observer("}},
-                    KernelObjects{"avx512",
-                                  TWINCRAFT_AVX512_OBJECTS,
-                                  {"new_kernel(", "put_books<", "new_observer("}},
-                    KernelObjects{"sums_avx2", TWINCRAFT_SUMS_AVX2_OBJECTS, {"stage_sums("}}),
+    testing::Values(
+        KernelObjects{"avx2",
+                      TWINCRAFT_AVX2_OBJECTS,
+                      {"new_kernel(", "write_books<", "settle_books<", "new_observer("}},
+        KernelObjects{"avx512",
+                      TWINCRAFT_AVX512_OBJECTS,
+                      {"new_kernel(", "write_books<", "settle_books<", "new_observer("}},
+        KernelObjects{"sums_avx2", TWINCRAFT_SUMS_AVX2_OBJECTS, {"stage_sums("}}),
     [](const auto& each) { return each.param.set; });
 
 }  // namespace

@@ -2,6 +2,8 @@
 // plain doubles, for every kind of vehicle, force and law of gravity, with every instruction set.
 #include <gtest/gtest.h>
 
+#include <cstring>
+
 #include "tests/support/any_vehicle.h"
 #include "tests/support/plain_books.h"
 
@@ -59,6 +61,31 @@ TEST_P(Books, AreSoOnTheGeneralPathAndInQuaternions) {
   model.engines.chains = ChainPath::kGeneral;
   model.engines.attitude = AttitudeChart::kQuaternion;
   expect_plain_books(model);
+}
+
+TEST_P(Books, HaveTheSameBytesWhateverIsBookedWithThem) {
+  const std::vector<RandomState> states = random_states(model_, 9);  // more than are booked at once
+  for (const bsm::InstructionSet set : bsm::instruction_sets()) {
+    const auto engine = make_bsm_engine(model_, set);
+    engine->hold(inputs_at(model_, 1.0));
+    std::vector<Eigen::VectorXd> x;
+    std::vector<BookRates> alone(states.size());
+    for (std::size_t i = 0; i < states.size(); ++i) {
+      x.push_back(pack(states[i], engine->layout()));
+      test::derivative_at(*engine, 1.0, x[i], &alone[i]);
+    }
+    Eigen::VectorXd rate(x[0].size());
+    for (std::size_t count = 1; count <= x.size(); ++count) {
+      std::vector<BookRates> together(count);
+      for (std::size_t i = 0; i < count; ++i)
+        engine->derivative_to_book(
+            1.0, span_of(x[i]), {rate.data(), static_cast<std::size_t>(rate.size())}, together[i]);
+      engine->settle_books();
+      for (std::size_t i = 0; i < count; ++i)
+        EXPECT_EQ(std::memcmp(&together[i], &alone[i], sizeof(BookRates)), 0)
+            << i << " of " << count;
+    }
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, Books, test::kAnyVehicle, test::vehicle_name);

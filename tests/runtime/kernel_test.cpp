@@ -166,15 +166,15 @@ TEST(Batch, BooksEveryLaneAsASingleSpacecraft) {
     const Eigen::VectorXd states = side_by_side(fleet, r_BN);
     Eigen::VectorXd rates(states.size());
     std::vector<BookRates> books(fleet.plans.size());
-    batch->derivative(0.5, states.data(), rates.data());
-    batch->books(states.data(), books);
+    batch->derivative_to_book(0.5, states.data(), rates.data(), books.data());
+    batch->settle_books();
     for (std::size_t l = 0; l < books.size(); ++l) {
       const auto single = bsm::make_kernel(fleet.plans[l], set);
       single->hold({&fleet.held_of[l], 1});
       const Eigen::VectorXd state = test::kernel_state(fleet.states[l], r_BN);
       BookRates alone;
-      single->derivative(0.5, state.data(), rates.data());
-      single->books(state.data(), {&alone, 1});
+      single->derivative_to_book(0.5, state.data(), rates.data(), &alone);
+      single->settle_books();
       const Eigen::Vector<double, 8> expected = numbers_of(alone);
       EXPECT_GT(expected.cwiseAbs().minCoeff(), 0.0);
       EXPECT_LT((numbers_of(books[l]) - expected).norm(), 1e-13 * expected.norm())
@@ -195,8 +195,8 @@ TEST(Batch, TakesNothingFromTheHeapInADerivativeOrItsBooks) {
   std::vector<BookRates> books(fleet.plans.size());
   const long before = test::allocation_count();
   for (int i = 0; i < 10; ++i) {
-    batch->derivative(0.0, state.data(), rate.data());
-    batch->books(state.data(), books);
+    batch->derivative_to_book(0.0, state.data(), rate.data(), books.data());
+    batch->settle_books();
     batch->finish_step(state.data());
   }
   EXPECT_EQ(test::allocation_count(), before);

@@ -53,7 +53,7 @@ class AnyVehicle : public testing::TestWithParam<const char*> {
 
 inline const auto kAnyVehicle =
     testing::Values("hub", "wheel", "panel", "chain", "damped", "gravity", "arm", "arm_in_orbit",
-                    "flex_as_bodies", "particle", "pendulum", "bob", "burn", "jet");
+                    "flex_as_bodies", "particle", "pendulum", "bob", "burn", "swarm", "jet");
 inline std::string vehicle_name(const testing::TestParamInfo<const char*>& info) {
   return info.param;
 }
