@@ -56,6 +56,12 @@ struct SineCosine {
 
 template <class A>
 SineCosine<simd::batch<double, A>> sine_cosine(const simd::batch<double, A>& angle) {
+  using Lanes = simd::batch<double, A>;
+  // What sincos() makes of small angles, to the last bit, without its choice of a quadrant.
+  if (simd::all(simd::abs(angle) <= simd::constants::pio4<Lanes>())) {
+    const Lanes square = angle * angle;
+    return {simd::kernel::detail::sin_eval(square, angle), simd::kernel::detail::cos_eval(square)};
+  }
   const auto [sine, cosine] = simd::sincos(angle);
   return {sine, cosine};
 }
@@ -70,7 +76,7 @@ inline constexpr bool kTakesTwoAngles<Pair> = true;
 inline void put_sines_cosines(const Pair& first, const Pair& second, SineCosine<Pair>& of_first,
                               SineCosine<Pair>& of_second) {
   using Both = simd::batch<double, simd::avx2>;
-  const auto [sine, cosine] = simd::sincos(Both(_mm256_set_m128d(second, first)));
+  const auto [sine, cosine] = sine_cosine(Both(_mm256_set_m128d(second, first)));
   of_first.sine = _mm256_castpd256_pd128(sine);
   of_first.cosine = _mm256_castpd256_pd128(cosine);
   of_second.sine = _mm256_extractf128_pd(sine, 1);

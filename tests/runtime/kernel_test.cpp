@@ -33,6 +33,23 @@ TEST(Lanes, HaveSinesGoodToTheLastDigits) {
   EXPECT_LT(worst, 2.3e-16);  // one digit in the last place of a number below one
 }
 
+TEST(Lanes, HaveTheSameSinesWhateverTheOthersAre) {
+  using portable::Pair;
+  for (int i = -2000; i <= 2000; ++i) {
+    const double angle = 3.9e-4 * i;  // below pi / 4
+    const auto [sine, cosine] = portable::sine_cosine(Pair(angle));
+    EXPECT_LE(std::abs(portable::lane(sine, 0) - std::sin(angle)), 1.2e-16);
+    EXPECT_LE(std::abs(portable::lane(cosine, 0) - std::cos(angle)), 1.2e-16);
+    for (const double other : {1.2, 2.0, 200.0, 1e5, std::nan("")}) {
+      Pair pair(angle);
+      portable::set_lane(pair, 1, other);
+      const auto [other_sine, other_cosine] = portable::sine_cosine(pair);
+      EXPECT_EQ(portable::lane(other_sine, 0), portable::lane(sine, 0)) << angle << other;
+      EXPECT_EQ(portable::lane(other_cosine, 0), portable::lane(cosine, 0)) << angle << other;
+    }
+  }
+}
+
 TEST(InstructionSets, GiveTheSameAccelerations) {
   std::mt19937_64 random(41);
   for (int trial = 0; trial < 100; ++trial) {
