@@ -19,9 +19,9 @@
 //
 // In-plane vectors are (x, z). Theta about s turns them by phi = -Theta from x to z; s cross v is
 // perp(v) = (v_z, -v_x). Where hinges and centres of mass lie on one line, the x axes of the links,
-// all that a link carries is a multiple of one vector. Angles and rates of links are absolute in
-// the mount: Theta, ThetaDot; nu = omega_s + ThetaDot. Tested by tests/runtime/bsm_test.cpp
-// (against the general recursion and the dense oracle).
+// first moments have become particles at hinges, see plan.cpp: only the last link has one. Angles
+// and rates of links are absolute in the mount: Theta, ThetaDot; nu = omega_s + ThetaDot. Tested by
+// tests/runtime/bsm_test.cpp (against the general recursion and the dense oracle).
 #pragma once
 
 #include <span>
@@ -92,7 +92,7 @@ class Chain {
       m.u = link.effort - link.stiffness * (q - link.rest) - link.damping * q_dot;
       phi -= q;
       theta_dot += q_dot;
-      spin += theta_dot * link.J;
+      spin += theta_dot * link.J_with_beyond;
       m.phi = phi;
       m.theta_dot = theta_dot;
     }
@@ -183,10 +183,11 @@ class Chain {
 
  private:
   struct Link {
-    S mass{}, mass_beyond{};     // of the link, of those after it
-    Vec2<S> first_moment, next;  // at angle zero
-    Deviator<S> G;               // likewise
-    S J{};
+    Vec2<S> next;             // at angle zero
+    S mass{}, mass_beyond{};  // of the link, of those after it
+    Vec2<S> first_moment;
+    Deviator<S> G, G_with_beyond;
+    S J{}, J_with_beyond{};
     S stiffness{}, damping{}, rest{}, effort{};
     Places<H, S> position{}, rate{};
     std::vector<ElementNow<S>> elements;
@@ -199,22 +200,28 @@ class Chain {
   void set(std::size_t l, const ChainPlan& plan, const Layout& layout) {
     set_lane(dcm_PC_, l, plan.dcm_PC);
     set_lane(r_HP_P_, l, plan.r_HP_P);
-    double mass = 0.0, J = 0.0, mean = 0.0;
+    double beyond = 0.0, J = 0.0, mean = 0.0;
     for (std::size_t i = links_.size(); i-- > 0;) {
       const PlanarLinkPlan& from = plan.links[i];
       Link& link = links_[i];
+      const auto [x, z] = from.next;
+      const double half = 0.5 * (from.G[0] - from.G[1]);
       set_lane(link.mass, l, from.mass);
-      set_lane(link.mass_beyond, l, mass);
-      mass += from.mass;
+      set_lane(link.mass_beyond, l, beyond);
       set_lane(link.first_moment.x, l, from.first_moment[0]);
       set_lane(link.first_moment.z, l, from.first_moment[1]);
-      set_lane(link.next.x, l, from.next[0]);
-      set_lane(link.next.z, l, from.next[1]);
-      mean += 0.5 * (from.G[0] + from.G[1]);
-      set_lane(link.G.half, l, 0.5 * (from.G[0] - from.G[1]));
+      set_lane(link.next.x, l, x);
+      set_lane(link.next.z, l, z);
+      set_lane(link.G.half, l, half);
       set_lane(link.G.xz, l, from.G[2]);
-      J += from.J;
+      set_lane(link.G_with_beyond.half, l, half + 0.5 * beyond * (z * z - x * x));
+      set_lane(link.G_with_beyond.xz, l, from.G[2] - beyond * x * z);
       set_lane(link.J, l, from.J);
+      const double J_with_beyond = from.J + beyond * (x * x + z * z);
+      set_lane(link.J_with_beyond, l, J_with_beyond);
+      mean += 0.5 * (from.G[0] + from.G[1] + beyond * (x * x + z * z));
+      J += J_with_beyond;
+      beyond += from.mass;
       set_lane(link.stiffness, l, from.stiffness);
       set_lane(link.damping, l, from.damping);
       set_lane(link.rest, l, from.rest);
@@ -224,7 +231,7 @@ class Chain {
       for (std::size_t e = 0; e < from.elements.size(); ++e)
         link.elements[e].set(l, from.elements[e]);
     }
-    set_lane(mass_, l, mass);
+    set_lane(mass_, l, beyond);
     set_lane(mean_, l, mean);
     set_lane(J_, l, J);
   }
@@ -267,13 +274,11 @@ class Chain {
       Recovery<S>& recovery = recoveries.data()[i];
       const S nu = omega_s_ + m.theta_dot, nu2 = nu * nu;
       const S rate = nu + m.theta_dot;
-      const Carried<S> along = turning.carry({m.turn.cosine, m.turn.sine}, nu2);
       const auto carried = [&](const Vec2<S>& v) {
-        if constexpr (kIsStraight) return v.x * along;
+        if constexpr (kIsStraight)
+          return turning.carry({v.x * m.turn.cosine, v.x * m.turn.sine}, nu2);
         return turning.carry(turned(v, m.turn), nu2);
       };
-      const Carried<S> b = carried(link.first_moment);
-      const Deviator<S> G = turned<!kIsStraight>(link.G, m.turn);
       if constexpr (!is_last) {
         const Carried<S> next = carried(link.next);
         recovery.next = next.v;
@@ -283,17 +288,22 @@ class Chain {
       } else {
         free.J = link.J;
       }
-      locked.add(b.v, G, rate, rate * b.leaves);
+      if constexpr (is_last || !kIsStraight) {
+        const Carried<S> b = carried(link.first_moment);
+        locked.moment += b.v;
+        locked.f_s += rate * b.leaves;
+        free.f += b.bias;
+        free.h += perp(b.v);
+      }
+      locked.add(turned<!kIsStraight>(link.G_with_beyond, m.turn), rate);
+      free.tau += turning.torque(turned<!kIsStraight>(link.G, m.turn));
       if (field != nullptr) {
         locked.feel(pulls_[i]);
         free.feel(pulls_[i]);
       }
-      free.f += b.bias;
-      free.tau += turning.torque(G);
-      free.h += perp(b.v);
       free.eliminate(link.mass, m.u, recovery);
     };
-    std::size_t i = links_.size() - 1;
+    std::size_t i = links.size() - 1;
     take(i, std::true_type());
     while (i-- > 0) take(i, std::false_type());
     return law_of(locked, free);
@@ -305,7 +315,10 @@ class Chain {
     const Vec2<S> w = Vec2<S>{} - perp(omega_);  // omega x s
     const Vec2<S> n0 = perp(locked.rates * omega_ - locked.lever) +
                        (omega_s_ * (J_ - mean_) + spin_) * w - locked.pulled;
-    const Plane<S> G{mean_ + locked.inertia.xx, mean_ + locked.inertia.zz, locked.inertia.xz};
+    const Plane<S>& products = locked.products;
+    const Plane<S> G{mean_ + locked.G.half + (products.xx + products.xx),
+                     mean_ - locked.G.half + (products.zz + products.zz),
+                     locked.G.xz + products.xz};
     const Vec<S>&x = dcm_WC_.x, &along = dcm_WC_.y, &z = dcm_WC_.z;
     const Vec<S> lever = locked.moment.x * z - locked.moment.z * x;  // S cross s
     return {G.in_axes(x, z),

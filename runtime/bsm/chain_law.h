@@ -16,11 +16,13 @@ struct Recovery {
 };
 
 /// What the locked chain from a link on asks for against the plane, about that link's hinge and
-/// as if that did not accelerate. Its mass and the mean of its inertia are constants.
+/// as if that did not accelerate. Its mass and the mean of its inertia are constants. A link's own
+/// inertia is that of the link with all the mass beyond it at the next hinge.
 template <class S>
 struct LockedChain {
   Vec2<S> moment;     // [kg m]
-  Plane<S> inertia;   // [kg m^2] but for the mean of each link's own
+  Plane<S> products;  // [kg m^2] of hinges' distances and moments beyond, xx and zz half of them
+  Deviator<S> G;      // [kg m^2] sum of the links' own
   S f_s{};            // [N] bias force along s
   Vec2<S> lever;      // [N m] its moment: the torque is -perp(lever)
   Deviator<S> rates;  // [kg m^2/s] sum of (nu + ThetaDot) G
@@ -34,22 +36,17 @@ struct LockedChain {
   /// From the next hinge to the link's own, d away, which makes the next one and all the mass
   /// beyond accelerate by a_s along s.
   void reach(const S& mass, const Vec2<S>& d, const S& a_s) {
-    const Vec2<S> there = moment + mass * d;
-    const Vec2<S> both = moment + there;
-    lever += a_s * there + f_s * d;
+    lever = lever + a_s * moment + f_s * d;
     f_s += mass * a_s;
-    inertia.xx += d.z * both.z;
-    inertia.zz += d.x * both.x;
-    inertia.xz = inertia.xz - d.x * moment.z - d.z * there.x;
-    moment = there;
+    products.xx += d.z * moment.z;
+    products.zz += d.x * moment.x;
+    products.xz = products.xz - d.x * moment.z - d.z * moment.x;
+    moment += mass * d;
   }
-  /// A link's own part: its first moment, its inertia, rate = nu + ThetaDot.
-  void add(const Vec2<S>& b, const Deviator<S>& own, const S& rate, const S& f) {
-    moment += b;
-    f_s += f;
-    inertia.xx += own.half;
-    inertia.zz -= own.half;
-    inertia.xz += own.xz;
+  /// A link's own part: its inertia, rate = nu + ThetaDot.
+  void add(const Deviator<S>& own, const S& rate) {
+    G.half += own.half;
+    G.xz += own.xz;
     rates.half += rate * own.half;
     rates.xz += rate * own.xz;
   }

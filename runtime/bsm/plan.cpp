@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace twincraft::bsm {
 namespace {
@@ -95,6 +96,23 @@ std::optional<PlanarLinkPlan> planar_link(const Candidates& of, std::size_t i,
   return plan;
 }
 
+/// A straight link moves as one without a first moment and a particle at the next hinge that has
+/// all of it, and that particle may as well be the next link's. Only the last link keeps a first
+/// moment.
+void move_masses_to_hinges(std::vector<PlanarLinkPlan>& links) {
+  for (std::size_t i = 0; i + 1 < links.size(); ++i) {
+    PlanarLinkPlan& link = links[i];
+    const double next = link.next[0], first_moment = link.first_moment[0];
+    if (first_moment == 0.0) continue;
+    const double mass = first_moment / next;
+    link.mass -= mass;
+    links[i + 1].mass += mass;
+    link.first_moment[0] = 0.0;
+    link.G[1] -= first_moment * next;
+    link.J -= first_moment * next;
+  }
+}
+
 /// See ChainPlan::is_straight.
 bool straighten(ChainPlan& chain) {
   const auto is_along = [](const PlanarLinkPlan& link) {
@@ -102,8 +120,16 @@ bool straighten(ChainPlan& chain) {
            std::abs(link.first_moment[1]) <= kZero * std::abs(link.first_moment[0]) &&
            std::abs(link.G[2]) <= kZero * (link.G[0] + link.G[1]);
   };
-  if (!std::ranges::all_of(chain.links, is_along)) return false;
+  // Else the particle would be far heavier than the link, and digits would go.
+  const auto reaches_center = [](const PlanarLinkPlan& link) {
+    return std::abs(link.first_moment[0]) <= 4.0 * link.mass * std::abs(link.next[0]);
+  };
+  const std::span all_but_last = std::span(chain.links).first(chain.links.size() - 1);
+  if (!std::ranges::all_of(chain.links, is_along) ||
+      !std::ranges::all_of(all_but_last, reaches_center))
+    return false;
   for (PlanarLinkPlan& link : chain.links) link.next[1] = link.first_moment[1] = link.G[2] = 0.0;
+  move_masses_to_hinges(chain.links);
   return true;
 }
 

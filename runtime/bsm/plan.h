@@ -42,7 +42,8 @@ struct ChainPlan {
   Vector3d r_HP_P;  // [m] root hinge, mount axes
   Matrix3d dcm_PC;  // chain to mount axes
   std::vector<PlanarLinkPlan> links;
-  /// Hinges, centres of mass and principal axes lie on the x axes of the links: no z, no xz.
+  /// Hinges, centres of mass and principal axes lie on the x axes of the links: no z, no xz. Masses
+  /// are then so spread over hinges that only the last link has a first moment.
   bool is_straight = false;
 };
 

@@ -287,6 +287,29 @@ TEST(Chain, IsStraightIfEveryLinkIs) {
   }));
 }
 
+TEST(Chain, HasTheFirstMomentsOfAStraightOneAsParticlesAtHinges) {
+  std::mt19937_64 random(16);
+  Assembly assembly = random_arrays(random, 5, Shape::kStraight);
+  const auto mass_of = [](const bsm::ChainPlan& chain) {
+    double mass = 0.0;
+    for (const bsm::PlanarLinkPlan& link : chain.links) mass += link.mass;
+    return mass;
+  };
+  const KernelOf straight(assembly);
+  const bsm::ChainPlan& chain = straight.plan().limbs[0].chains[0];
+  ASSERT_TRUE(chain.is_straight);
+  for (const bsm::PlanarLinkPlan& link : chain.links)
+    EXPECT_EQ(link.first_moment[0] == 0.0, &link != &chain.links.back());
+
+  // But for a link whose centre of mass is too far beyond the next hinge.
+  assembly.links[4].joint.r_HP_P *= 1e-3;
+  const KernelOf far(assembly);
+  const bsm::ChainPlan& as_it_is = far.plan().limbs[0].chains[0];
+  EXPECT_FALSE(as_it_is.is_straight);
+  for (const bsm::PlanarLinkPlan& link : as_it_is.links) EXPECT_NE(link.first_moment[0], 0.0);
+  EXPECT_NEAR(mass_of(chain), mass_of(as_it_is), 1e-14 * mass_of(as_it_is));
+}
+
 TEST(Chain, ServesOnlyTailsThatAreBalancedAboutTheirPlane) {
   std::mt19937_64 random(12);
   const auto planar_links = [&random](auto change) {
