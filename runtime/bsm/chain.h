@@ -45,9 +45,12 @@ class Chain {
     const ChainPlan& first = *lanes.front();
     mount_ = first.mount;
     is_straight_ = first.is_straight;
-    links_.resize(first.links.size());
+    joints_.resize(first.links.size());
+    bodies_.resize(first.links.size());
     motions_.resize(first.links.size());
     recoveries_.resize(first.links.size());
+    efforts_.resize(first.links.size());
+    elements_.resize(first.links.size());
     pulls_.resize(first.links.size());
     for (std::size_t l = 0; l < lanes.size(); ++l) set(l, *lanes[l], layout);
     dcm_WC_ = dcm_PC_;  // for good where the mount is the hub, whose axes are the working axes
@@ -62,9 +65,12 @@ class Chain {
   }
 
   void hold(std::size_t lane_index, const ChainPlan& plan, const HeldInputsIn<Number<H>>& held) {
-    for (std::size_t i = 0; i < links_.size(); ++i) {
-      const auto joint = static_cast<std::size_t>(plan.links[i].link - 1);
-      set_lane(links_[i].effort, lane_index, held.effort.data()[joint]);
+    for (std::size_t i = 0; i < joints_.size(); ++i) {
+      const PlanarLinkPlan& link = plan.links[i];
+      const auto joint = static_cast<std::size_t>(link.link - 1);
+      const Number<H> effort = held.effort.data()[joint];
+      set_lane(efforts_[i], lane_index, effort);
+      set_lane(joints_[i].held, lane_index, effort + Number<H>(link.stiffness * link.rest));
     }
   }
 
@@ -81,37 +87,37 @@ class Chain {
     omega_ = in_plane(omega_C);
     omega_s_ = omega_C.y;
     // Local, or the compiler asks for them again after every store of a register.
-    const std::span<const Link> links = links_;
+    const std::span<const Joint> joints = joints_;
     const std::span<Motion> motions = motions_;
     S phi(0.0), theta_dot(0.0), spin(0.0);
-    for (std::size_t i = 0; i < links.size(); ++i) {
-      const Link& link = links.data()[i];
+    const auto angle = [&](std::size_t i) __attribute__((always_inline)) {
+      const Joint& joint = joints.data()[i];
       Motion& m = motions.data()[i];
-      const S q = gather<H, S>(state, link.position);
-      const S q_dot = gather<H, S>(state, link.rate);
-      m.u = link.effort - link.stiffness * (q - link.rest) - link.damping * q_dot;
+      const S q = gather<H, S>(state, joint.position);
+      const S q_dot = gather<H, S>(state, joint.rate);
+      m.drive = joint.held - joint.stiffness * q - joint.damping * q_dot;
       phi -= q;
       theta_dot += q_dot;
-      spin += theta_dot * link.J_with_beyond;
-      m.phi = phi;
+      spin += theta_dot * joint.J_with_beyond;
       m.theta_dot = theta_dot;
-    }
-    spin_ = spin;
+      return phi;
+    };
     std::size_t i = 0;
     if constexpr (kTakesTwoAngles<S>) {
       for (; i + 1 < motions.size(); i += 2) {
-        Motion &m = motions.data()[i], &next = motions.data()[i + 1];
-        put_sines_cosines(m.phi, next.phi, m.turn, next.turn);
+        const S first = angle(i), second = angle(i + 1);
+        put_sines_cosines(first, second, motions.data()[i].turn, motions.data()[i + 1].turn);
       }
     }
-    for (; i < motions.size(); ++i) motions.data()[i].turn = sine_cosine(motions.data()[i].phi);
+    for (; i < motions.size(); ++i) motions.data()[i].turn = sine_cosine(angle(i));
+    spin_ = spin;
   }
 
   Moment<S> moment() const {
     Vec2<S> sum;  // about the hinge of the link at hand
-    for (std::size_t i = links_.size(); i-- > 0;) {
-      const Link& link = links_[i];
-      sum += turned(link.first_moment + link.mass_beyond * link.next, motions_[i].turn);
+    for (std::size_t i = bodies_.size(); i-- > 0;) {
+      const Body& body = bodies_[i];
+      sum += turned(body.first_moment + body.mass_beyond * body.next, motions_[i].turn);
     }
     return {mass_, mass_ * r_HB_ + in_axes(sum)};
   }
@@ -130,12 +136,13 @@ class Chain {
     const Vec<S> a_H = a + cross(omega_dot, r_HP_) + a_bias_;
     Vec2<S> at{dot(dcm_WC_.x, a_H), dot(dcm_WC_.z, a_H)};
     S before = dot(dcm_WC_.y, omega_dot);
-    const std::span<const Link> links = links_;
+    const std::span<const Joint> joints = joints_;
+    const std::span<const Motion> motions = motions_;
     const std::span<const Recovery<S>> recoveries = recoveries_;
-    for (std::size_t i = 0; i < links.size(); ++i) {
+    for (std::size_t i = 0; i < joints.size(); ++i) {
       const Recovery<S>& r = recoveries.data()[i];
-      const S alpha = r.gain - r.gain_f.x * at.x - r.gain_f.z * at.z;
-      scatter<H, S>(alpha - before, rate, links.data()[i].rate);
+      const S alpha = motions.data()[i].drive - r.gain_f.x * at.x - r.gain_f.z * at.z;
+      scatter<H, S>(alpha - before, rate, joints.data()[i].rate);
       at = at + r.bias;
       at = {at.x + alpha * r.next.z, at.z - alpha * r.next.x};
       before = alpha;
@@ -145,19 +152,20 @@ class Chain {
   // For the books, as of Limb: from what the last evaluation left.
   S inner_power(const Number<H>* state) const {
     S power(0.0);
-    for (const Link& link : links_) {
-      const S q_dot = gather<H, S>(state, link.rate);
-      power += (link.effort - link.damping * q_dot) * q_dot;
+    for (std::size_t i = 0; i < joints_.size(); ++i) {
+      const Joint& joint = joints_[i];
+      const S q_dot = gather<H, S>(state, joint.rate);
+      power += (efforts_[i] - joint.damping * q_dot) * q_dot;
     }
     return power;
   }
   // Seen from the mount's axes.
   MassMotion<S> motion() const {
     Vec2<S> moment, momentum;
-    for (std::size_t i = 0; i < links_.size(); ++i) {
-      const Link& link = links_[i];
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      const Body& body = bodies_[i];
       const Vec2<S> part =
-          turned(link.first_moment + link.mass_beyond * link.next, motions_[i].turn);
+          turned(body.first_moment + body.mass_beyond * body.next, motions_[i].turn);
       moment += part;
       momentum += motions_[i].theta_dot * perp(part);
     }
@@ -167,13 +175,13 @@ class Chain {
     Pull<S> sum;  // chain axes, about the root hinge
     S power(0.0);
     Vec2<S> r, w;  // of a hinge from the root hinge
-    for (std::size_t i = 0; i < links_.size(); ++i) {
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
       const Pull<S>& pull = pulls_[i];
       const S& theta_dot = motions_[i].theta_dot;
       sum.torque += pull.torque;
       sum.add(pull.force, {r.x, S(0.0), r.z});
       power += dot(w, in_plane(pull.force)) + theta_dot * pull.torque.y;
-      const Vec2<S> next = turned(links_[i].next, motions_[i].turn);
+      const Vec2<S> next = turned(bodies_[i].next, motions_[i].turn);
       r += next;
       w += theta_dot * perp(next);
     }
@@ -182,54 +190,60 @@ class Chain {
   }
 
  private:
-  struct Link {
-    Vec2<S> next;             // at angle zero
-    S mass{}, mass_beyond{};  // of the link, of those after it
-    Vec2<S> first_moment;
-    Deviator<S> G, G_with_beyond;
-    S J{}, J_with_beyond{};
-    S stiffness{}, damping{}, rest{}, effort{};
+  // A pass touches only what it reads: the lanes of a long chain fill the nearest cache.
+  /// What move() reads.
+  struct Joint {
+    S stiffness{}, damping{};
+    S held{};           // [N m] at angle and rate zero, by the motor and by the spring
+    S J_with_beyond{};  // [kg m^2] of the link with all the mass beyond it at the next hinge
     Places<H, S> position{}, rate{};
-    std::vector<ElementNow<S>> elements;
+  };
+  /// What the law reads, vectors at angle zero.
+  struct Body {
+    S mass{}, mass_beyond{};  // of the link, of those after it
+    S J{};
+    Vec2<S> next;
+    Deviator<S> G, G_with_beyond;  // with: as J_with_beyond
+    Vec2<S> first_moment;
   };
   struct Motion {
-    SineCosine<S> turn;  // of phi
-    S phi, theta_dot;    // phi = -Theta
-    S u;                 // torque on the joint
+    SineCosine<S> turn;  // of phi = -Theta
+    S theta_dot;
+    S drive;  // [N m] torque on the joint; once that is eliminated, alpha = drive - gain_f . a
   };
   void set(std::size_t l, const ChainPlan& plan, const Layout& layout) {
     set_lane(dcm_PC_, l, plan.dcm_PC);
     set_lane(r_HP_P_, l, plan.r_HP_P);
     double beyond = 0.0, J = 0.0, mean = 0.0;
-    for (std::size_t i = links_.size(); i-- > 0;) {
+    for (std::size_t i = bodies_.size(); i-- > 0;) {
       const PlanarLinkPlan& from = plan.links[i];
-      Link& link = links_[i];
+      Joint& joint = joints_[i];
+      Body& body = bodies_[i];
       const auto [x, z] = from.next;
       const double half = 0.5 * (from.G[0] - from.G[1]);
-      set_lane(link.mass, l, from.mass);
-      set_lane(link.mass_beyond, l, beyond);
-      set_lane(link.first_moment.x, l, from.first_moment[0]);
-      set_lane(link.first_moment.z, l, from.first_moment[1]);
-      set_lane(link.next.x, l, x);
-      set_lane(link.next.z, l, z);
-      set_lane(link.G.half, l, half);
-      set_lane(link.G.xz, l, from.G[2]);
-      set_lane(link.G_with_beyond.half, l, half + 0.5 * beyond * (z * z - x * x));
-      set_lane(link.G_with_beyond.xz, l, from.G[2] - beyond * x * z);
-      set_lane(link.J, l, from.J);
+      set_lane(body.mass, l, from.mass);
+      set_lane(body.mass_beyond, l, beyond);
+      set_lane(body.first_moment.x, l, from.first_moment[0]);
+      set_lane(body.first_moment.z, l, from.first_moment[1]);
+      set_lane(body.next.x, l, x);
+      set_lane(body.next.z, l, z);
+      set_lane(body.G.half, l, half);
+      set_lane(body.G.xz, l, from.G[2]);
+      set_lane(body.G_with_beyond.half, l, half + 0.5 * beyond * (z * z - x * x));
+      set_lane(body.G_with_beyond.xz, l, from.G[2] - beyond * x * z);
+      set_lane(body.J, l, from.J);
       const double J_with_beyond = from.J + beyond * (x * x + z * z);
-      set_lane(link.J_with_beyond, l, J_with_beyond);
+      set_lane(joint.J_with_beyond, l, J_with_beyond);
       mean += 0.5 * (from.G[0] + from.G[1] + beyond * (x * x + z * z));
       J += J_with_beyond;
       beyond += from.mass;
-      set_lane(link.stiffness, l, from.stiffness);
-      set_lane(link.damping, l, from.damping);
-      set_lane(link.rest, l, from.rest);
-      link.position[l % kLimbs<H, S>] = layout.position(from.link);
-      link.rate[l % kLimbs<H, S>] = layout.rate(from.link);
-      if (l == 0) link.elements.resize(from.elements.size());
+      set_lane(joint.stiffness, l, from.stiffness);
+      set_lane(joint.damping, l, from.damping);
+      joint.position[l % kLimbs<H, S>] = layout.position(from.link);
+      joint.rate[l % kLimbs<H, S>] = layout.rate(from.link);
+      if (l == 0) elements_[i].resize(from.elements.size());
       for (std::size_t e = 0; e < from.elements.size(); ++e)
-        link.elements[e].set(l, from.elements[e]);
+        elements_[i][e].set(l, from.elements[e]);
     }
     set_lane(mass_, l, beyond);
     set_lane(mean_, l, mean);
@@ -243,16 +257,16 @@ class Chain {
     const Field<S> field_C = field.in_axes(dcm_WC_);
     const Vec<S> r_HB_C = transposed(dcm_WC_, r_HB_);
     Vec2<S> r;  // [m] hinge from the root hinge
-    for (std::size_t i = 0; i < links_.size(); ++i) {
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
       Pull<S> sum;
-      for (const ElementNow<S>& element : links_[i].elements) {
+      for (const ElementNow<S>& element : elements_[i]) {
         const Vec2<S> at = turned(in_plane(element.r_EL), motions_[i].turn);
         const Vec<S> r_EH{at.x, element.r_EL.y, at.z};
         const Vec<S> place = r_HB_C + Vec<S>{r.x, S(0.0), r.z} + r_EH;
         sum.add(element.mass * field_C.difference(place), r_EH);
       }
       pulls_[i] = sum;
-      r += turned(links_[i].next, motions_[i].turn);
+      r += turned(bodies_[i].next, motions_[i].turn);
     }
   }
 
@@ -262,15 +276,15 @@ class Chain {
   template <bool kIsStraight>
   Law<S> law_about_root(const Field<S>* field) {
     if (field != nullptr) pull(*field);
-    const std::span<const Link> links = links_;
-    const std::span<const Motion> motions = motions_;
+    const std::span<const Body> bodies = bodies_;
+    const std::span<Motion> motions = motions_;
     const std::span<Recovery<S>> recoveries = recoveries_;
     const Turning<S> turning(omega_);
     LockedChain<S> locked;
     FreeChain<S> free;
     const auto take = [&](std::size_t i, auto is_last) __attribute__((always_inline)) {
-      const Link& link = links.data()[i];
-      const Motion& m = motions.data()[i];
+      const Body& body = bodies.data()[i];
+      Motion& m = motions.data()[i];
       Recovery<S>& recovery = recoveries.data()[i];
       const S nu = omega_s_ + m.theta_dot, nu2 = nu * nu;
       const S rate = nu + m.theta_dot;
@@ -280,30 +294,30 @@ class Chain {
         return turning.carry(turned(v, m.turn), nu2);
       };
       if constexpr (!is_last) {
-        const Carried<S> next = carried(link.next);
+        const Carried<S> next = carried(body.next);
         recovery.next = next.v;
         recovery.bias = next.bias;
-        locked.reach(link.mass_beyond, next.v, rate * next.leaves);
-        free.reach(next.v, next.bias, link.J);
+        locked.reach(body.mass_beyond, next.v, rate * next.leaves);
+        free.reach(next.v, next.bias, body.J);
       } else {
-        free.J = link.J;
+        free.J = body.J;
       }
       if constexpr (is_last || !kIsStraight) {
-        const Carried<S> b = carried(link.first_moment);
+        const Carried<S> b = carried(body.first_moment);
         locked.moment += b.v;
         locked.f_s += rate * b.leaves;
         free.f += b.bias;
         free.h += perp(b.v);
       }
-      locked.add(turned<!kIsStraight>(link.G_with_beyond, m.turn), rate);
-      free.tau += turning.torque(turned<!kIsStraight>(link.G, m.turn));
+      locked.add(turned<!kIsStraight>(body.G_with_beyond, m.turn), rate);
+      free.tau += turning.torque(turned<!kIsStraight>(body.G, m.turn));
       if (field != nullptr) {
         locked.feel(pulls_[i]);
         free.feel(pulls_[i]);
       }
-      free.eliminate(link.mass, m.u, recovery);
+      m.drive = free.eliminate(body.mass, m.drive, recovery);
     };
-    std::size_t i = links.size() - 1;
+    std::size_t i = bodies.size() - 1;
     take(i, std::true_type());
     while (i-- > 0) take(i, std::false_type());
     return law_of(locked, free);
@@ -332,14 +346,18 @@ class Chain {
   bool is_straight_ = false;
   Vec<S> r_HP_P_, r_HP_, r_HB_, a_bias_;
   Mat<S> dcm_PC_, dcm_WC_;
-  std::vector<Link> links_;
+  std::vector<Joint> joints_;
+  std::vector<Body> bodies_;
   std::vector<Motion> motions_;
   std::vector<Recovery<S>> recoveries_;
+  std::vector<S> efforts_;  // [N m] of the motors
+  std::vector<std::vector<ElementNow<S>>> elements_;
   std::vector<Pull<S>> pulls_;
-  S mass_{}, mean_{}, J_{};  // sums over all links; mean_: of (G.xx + G.zz) / 2
-  S omega_s_{};              // rate of the mount along s
-  Vec2<S> omega_;            // and in the plane
-  S spin_{};                 // [kg m^2/s] sum of ThetaDot J
+  // Sums over all links, each with the mass beyond it; mean_: of (G.xx + G.zz) / 2.
+  S mass_{}, mean_{}, J_{};
+  S omega_s_{};    // rate of the mount along s
+  Vec2<S> omega_;  // and in the plane
+  S spin_{};       // [kg m^2/s] sum of ThetaDot J, with the mass beyond
 };
 
 }  // namespace twincraft::bsm::TWINCRAFT_KERNEL

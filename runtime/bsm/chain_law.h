@@ -7,21 +7,20 @@
 
 namespace twincraft::bsm::TWINCRAFT_KERNEL {
 
-/// alpha = gain - gain_f . a, and a of the next hinge is a + alpha perp(next) + bias
+/// alpha = gain - gain_f . a, and a of the next hinge is a + alpha perp(next) + bias. The gain is
+/// kept by who asks for it.
 template <class S>
 struct Recovery {
-  S gain;
-  Vec2<S> gain_f;
-  Vec2<S> next, bias;
+  Vec2<S> gain_f, next, bias;
 };
 
 /// What the locked chain from a link on asks for against the plane, about that link's hinge and
 /// as if that did not accelerate. Its mass and the mean of its inertia are constants. A link's own
-/// inertia is that of the link with all the mass beyond it at the next hinge.
+/// inertia is here that of the link with all the mass beyond it at the next hinge.
 template <class S>
 struct LockedChain {
   Vec2<S> moment;     // [kg m]
-  Plane<S> products;  // [kg m^2] of hinges' distances and moments beyond, xx and zz half of them
+  Plane<S> products;  // [kg m^2] of distances and moments beyond; of xx and zz one half
   Deviator<S> G;      // [kg m^2] sum of the links' own
   S f_s{};            // [N] bias force along s
   Vec2<S> lever;      // [N m] its moment: the torque is -perp(lever)
@@ -73,17 +72,18 @@ struct FreeChain {
     J = own_J + d.z * h.x - d.x * h.z;
     tau = tau + d.z * f.x - d.x * f.z;
   }
-  /// By the torque u on the joint, which the link before then feels.
-  void eliminate(const S& mass, const S& u, Recovery<S>& recovery) {
+  /// By the torque u on the joint, which the link before then feels. @return the gain
+  S eliminate(const S& mass, const S& u, Recovery<S>& recovery) {
     const S xx = h.x * h.x, zz = h.z * h.z, xz = h.x * h.z;  // while the quotient is made
     const S inverse = S(1.0) / J;
-    recovery.gain = inverse * (u - tau);
+    const S gain = inverse * (u - tau);
     recovery.gain_f = inverse * h;
     M.xx = (M.xx + mass) - inverse * xx;
     M.zz = (M.zz + mass) - inverse * zz;
     M.xz = M.xz - inverse * xz;
-    f += recovery.gain * h;
+    f += gain * h;
     tau = u;
+    return gain;
   }
 };
 
