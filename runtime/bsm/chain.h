@@ -309,13 +309,14 @@ class Chain {
         free.f += b.bias;
         free.h += perp(b.v);
       }
-      locked.add(turned<!kIsStraight>(body.G_with_beyond, m.turn), rate);
       free.tau += turning.torque(turned<!kIsStraight>(body.G, m.turn));
       if (field != nullptr) {
         locked.feel(pulls_[i]);
         free.feel(pulls_[i]);
       }
       m.drive = free.eliminate(body.mass, m.drive, recovery);
+      // Last, or what the link before waits for would be kept in memory meanwhile.
+      locked.add(turned<!kIsStraight>(body.G_with_beyond, m.turn), rate);
     };
     std::size_t i = bodies.size() - 1;
     take(i, std::true_type());

@@ -69,7 +69,8 @@ struct FreeChain {
     f.x = f.x + M.xx * bias.x + M.xz * bias.z;
     f.z = f.z + M.xz * bias.x + M.zz * bias.z;
     h = {M.xx * d.z - M.xz * d.x, M.xz * d.z - M.zz * d.x};
-    J = own_J + d.z * h.x - d.x * h.z;
+    const S twice_xz = (d.x + d.x) * d.z;  // not by h, which comes later than M
+    J = (own_J + (d.z * d.z) * M.xx) + ((d.x * d.x) * M.zz - twice_xz * M.xz);
     tau = tau + d.z * f.x - d.x * f.z;
   }
   /// By the torque u on the joint, which the link before then feels. @return the gain
