@@ -139,12 +139,18 @@ class Chain {
     const std::span<const Joint> joints = joints_;
     const std::span<const Motion> motions = motions_;
     const std::span<const Recovery<S>> recoveries = recoveries_;
+    // What alpha of a link makes of the next hinge is added a link later, so that the next alpha
+    // waits for it in one product, not in three.
+    S alpha(0.0);
+    Vec2<S> lever;
     for (std::size_t i = 0; i < joints.size(); ++i) {
       const Recovery<S>& r = recoveries.data()[i];
-      const S alpha = motions.data()[i].drive - r.gain_f.x * at.x - r.gain_f.z * at.z;
-      scatter<H, S>(alpha - before, rate, joints.data()[i].rate);
+      const S known = motions.data()[i].drive - r.gain_f.x * at.x - r.gain_f.z * at.z;
       at = at + r.bias;
-      at = {at.x + alpha * r.next.z, at.z - alpha * r.next.x};
+      at = {at.x + alpha * lever.x, at.z + alpha * lever.z};
+      alpha = known - alpha * (r.gain_f.x * lever.x + r.gain_f.z * lever.z);
+      lever = perp(r.next);
+      scatter<H, S>(alpha - before, rate, joints.data()[i].rate);
       before = alpha;
     }
   }
