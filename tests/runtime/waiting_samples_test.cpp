@@ -33,9 +33,7 @@ class PatientEngine : public ToyEngine {
 
 class Waiting : public testing::Test {
  protected:
-  void add(double time) {
-    waiting_.add(time, state_, static_cast<int>(-time));
-  }
+  void add(double time) { waiting_.add(time, state_, static_cast<int>(-time)); }
   std::vector<double> deliver(std::size_t most = 100) {
     std::vector<double> times;
     waiting_.deliver([&](const Observation& seen, int beside) {
