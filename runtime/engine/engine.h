@@ -56,8 +56,8 @@ class Engine {
     derivative(time, state, rate, nullptr);
   }
 
-  /// The same, but `books` may be set as late as by settle_books(), for several are made at once.
-  /// They stay where they are until then. @pre settle_books() comes before the next hold()
+  /// The same for several at once: settle_books() sets all `books` that were asked for since it was
+  /// last called. @pre they stay where they are until then, and it comes before the next hold()
   virtual void derivative_to_book(double time, std::span<const double> state,
                                   std::span<double> rate, BookRates& books) {
     derivative(time, state, rate, &books);
@@ -74,8 +74,8 @@ class Engine {
     observe(time, state, seen);
     return seen;
   }
-  /// The same for several at once: all that has been noted since sum_up_noted() was last called is
-  /// set by then. @pre `seen` stays where it is until then; fewer than summed_at_once() wait
+  /// The same for several at once: sum_up_noted() sets all of what was noted since it was last
+  /// called. @pre `seen` stays where it is until then; fewer than summed_at_once() wait
   virtual void note(double time, std::span<const double> state, Observation& seen) {
     observe(time, state, seen);
   }

@@ -106,7 +106,9 @@ class Flight::ExcusingOde final : public Ode {
     try {
       ode_.derivative(time, state, rate);
     } catch (const NumericalFailure& failure) {
-      std::ranges::fill(rate, std::numeric_limits<double>::quiet_NaN());
+      // Of what is read, so that nothing behind it stays so.
+      std::ranges::fill(rate.first(static_cast<std::size_t>(ode_.read_size())),
+                        std::numeric_limits<double>::quiet_NaN());
       excuse_ = failure.what();
     }
   }

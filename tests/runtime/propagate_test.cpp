@@ -377,17 +377,20 @@ TEST(Propagate, StopsInsideALongAdaptiveInterval) {
 }
 
 TEST(Propagate, RejectsATrialStepThatTheEngineCannotEvaluate) {
-  Model model = toy_model();
-  model.simulation.method = Method::kRkf78;
-  ToyEngine engine(model);
-  const Trajectory smooth = propagate(engine, model);
-  int evaluations = 0;
-  engine.mischief = [&](double, auto) {
-    if (++evaluations == 5) throw NumericalFailure("the mass matrix is singular");
-  };
-  const Trajectory trajectory = propagate(engine, model);
-  EXPECT_EQ(trajectory.status, Trajectory::Status::kComplete) << trajectory.failure;
-  EXPECT_EQ(trajectory.counts.rejected, smooth.counts.rejected + 1);
+  for (const AttitudeChart chart : {AttitudeChart::kMrp, AttitudeChart::kQuaternion}) {
+    Model model = toy_model();
+    model.engines.attitude = chart;
+    model.simulation.method = Method::kRkf78;
+    ToyEngine engine(model);
+    const Trajectory smooth = propagate(engine, model);
+    int evaluations = 0;
+    engine.mischief = [&](double, auto) {
+      if (++evaluations == 8) throw NumericalFailure("the mass matrix is singular");
+    };
+    const Trajectory trajectory = propagate(engine, model);
+    EXPECT_EQ(trajectory.status, Trajectory::Status::kComplete) << trajectory.failure;
+    EXPECT_EQ(trajectory.counts.rejected, smooth.counts.rejected + 1);
+  }
 }
 
 TEST(Propagate, FailsInTheEnginesOwnWordsWhenNoStepIsShortEnough) {
