@@ -10,6 +10,16 @@
 
 namespace twincraft::bsm::TWINCRAFT_KERNEL {
 
+/// What changes the books of a vehicle, beside motors, efforts and dampers within it.
+struct BookCauses {
+  bool drive = false;  // loads and mass that leaves: no potential covers them
+  bool flow = false;   // mass leaves
+  bool fall = false;   // gravity
+  bool pull = false;   // gravity that differs from that at B
+
+  bool are_inner() const { return !drive && !fall && !pull; }
+};
+
 /// A number and a vector side by side in memory, as sums over lanes come out.
 template <class S>
 struct Four {

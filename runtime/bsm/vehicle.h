@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "runtime/bsm/book_page.h"
 #include "runtime/bsm/charts.h"
 #include "runtime/bsm/hub_equation.h"
 #include "runtime/bsm/kernel.h"
@@ -15,16 +16,6 @@ namespace twincraft::bsm::TWINCRAFT_KERNEL {
 
 template <class H, class S>
 class Bookkeeper;
-
-/// What changes the books of a vehicle, beside motors, efforts and dampers within it.
-struct BookCauses {
-  bool drive = false;  // loads and mass that leaves: no potential covers them
-  bool flow = false;   // mass leaves
-  bool fall = false;   // gravity
-  bool pull = false;   // gravity that differs from that at B
-
-  bool are_inner() const { return !drive && !fall && !pull; }
-};
 
 /// @tparam H  scalar of the hub: a double, or one spacecraft per lane
 /// @tparam S  of the limbs: two like ones per Pair, or H where the lanes are spacecraft

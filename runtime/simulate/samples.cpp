@@ -34,7 +34,7 @@ bool SampleTimes::at(double landing) const {
 
 void SampleTimes::taken(double landing) {
   const double interval = model_.simulation.record;
-  count_ += 1.0;  // the next multiple, as a rule
+  count_ += 1.0;  // as a rule, and a quotient is a hundredth of a small recorded step
   if (count_ * interval <= landing + tolerance_ || (count_ - 1.0) * interval > landing + tolerance_)
     count_ = std::floor((landing + tolerance_) / interval) + 1.0;
   next_ = count_ * interval;
