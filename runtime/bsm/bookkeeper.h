@@ -104,7 +104,7 @@ class Bookkeeper {
     if (vehicle_.push_.acts()) outside.pull.add(vehicle_.pushed_);
     const Vec<H> r_CB = (H(1.0) / page.mass.value) * page.mass.vector;
     if (vehicle_.acts_at_center_) outside.pull.add(vehicle_.held_at_center_, r_CB);
-    const Vec<S> r_CB_S = vehicle_.spread(r_CB);
+    const Vec<S> r_CB_S = spread<S>(r_CB);
     const Vec<S>* at = vehicle_.acts_at_center_ ? &r_CB_S : nullptr;
     outside +=
         of_limbs<Outside>([&](const auto& limb, Outside<S>& sum) { limb.add_loads(at, sum); });
@@ -114,7 +114,7 @@ class Bookkeeper {
   /// Differences from that at B.
   void write_pulls(BookPage<H>& page) const {
     particles_.put_pulls(vehicle_.field_, page);
-    const Field<S> field = vehicle_.spread(vehicle_.field_);
+    const Field<S> field = spread<S>(vehicle_.field_);
     for_each_tree<Outside>([&](const auto& limb, Outside<S>& sum) { limb.add_gravity(field, sum); },
                            [&page](const Outside<S>& sum, auto is_full) {
                              gather<is_full>(sum.power, sum.pull.force, page.pulls);
@@ -138,7 +138,7 @@ class Bookkeeper {
     }
     if (!vehicle_.has_elements_) return;
     power += particles_.lift(field);
-    const Field<S> field_S = vehicle_.spread(field);
+    const Field<S> field_S = spread<S>(field);
     for_each_tree<Power>(
         [&](const auto& limb, Power<S>& sum) { limb.add_lifted(field_S, sum); },
         [&power](const Power<S>& sum, auto is_full) { power += total<is_full>(sum).power; });

@@ -5,15 +5,6 @@
 namespace twincraft::bsm::TWINCRAFT_KERNEL {
 namespace {
 
-template <class T, class H>
-Vec<T> spread(const Vec<H>& v) {
-  return {T(v.x), T(v.y), T(v.z)};
-}
-template <class T, class H>
-Sym<T> spread(const Sym<H>& m) {
-  return {T(m.xx), T(m.yy), T(m.zz), T(m.xy), T(m.xz), T(m.yz)};
-}
-
 /// From pages to books: all at once.
 template <class H, class S>
 class Reader {

@@ -25,7 +25,7 @@ class ParticleBooks {
   }
   /// And what leaves.
   void put_motion_and_leaving(BookPage<H>& page) const {
-    const Vec<W> omega = spread(page.omega);
+    const Vec<W> omega = spread<W>(page.omega);
     Sums mass{}, motion{}, leaving{}, driving{}, turning{};
     for (const Particles& some : all_) {
       const Vec<W> r = rows(some, Of::kPlace), w = rows(some, Of::kVelocity);
@@ -43,7 +43,7 @@ class ParticleBooks {
     put(turning, page.turning);
   }
   void put_pulls(const Field<H>& of_hub, BookPage<H>& page) const {
-    const Field<W> field = spread(of_hub);
+    const Field<W> field = spread<W>(of_hub);
     Sums pulls{}, twists{};
     for (const Particles& some : all_) {
       const Vec<W> r = rows(some, Of::kPlace);
@@ -56,7 +56,7 @@ class ParticleBooks {
   }
   /// See lifted().
   H lift(const Field<H>& of_hub) const {
-    const Field<W> field = spread(of_hub);
+    const Field<W> field = spread<W>(of_hub);
     Sums sums{};
     for (const Particles& some : all_)
       add(lifted(row(some, Of::kMassRate), rows(some, Of::kPlace), field), {}, sums);
@@ -78,11 +78,6 @@ class ParticleBooks {
   }
   static Vec<W> rows(const Particles& some, std::size_t i) {
     return {row(some, i), row(some, i + 1), row(some, i + 2)};
-  }
-  static Vec<W> spread(const Vec<H>& v) { return {W(v.x), W(v.y), W(v.z)}; }
-  static Field<W> spread(const Field<H>& field) {
-    return {W(field.mu), spread(field.r), W(field.inverse_r2), W(field.strength),
-            field.has_gradient};
   }
 
   /// Of as many particles as there are lanes each: sums lane by lane, over all, would be too many

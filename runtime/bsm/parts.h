@@ -44,6 +44,21 @@ struct Moment {
   }
 };
 
+/// The same in every lane that T has for one of H.
+template <class T, class H>
+Vec<T> spread(const Vec<H>& v) {
+  return {T(v.x), T(v.y), T(v.z)};
+}
+template <class T, class H>
+Sym<T> spread(const Sym<H>& m) {
+  return {T(m.xx), T(m.yy), T(m.zz), T(m.xy), T(m.xz), T(m.yz)};
+}
+template <class T, class H>
+Field<T> spread(const Field<H>& field) {
+  return {T(field.mu), spread<T>(field.r), T(field.inverse_r2), T(field.strength),
+          field.has_gradient};
+}
+
 /// One limb's number of those in the lanes of S.
 template <class H, class S>
 H picked(const S& value, std::size_t limb) {

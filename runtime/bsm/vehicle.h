@@ -145,11 +145,6 @@ class Vehicle {
     put_entry(state, at + 1, v.y);
     put_entry(state, at + 2, v.z);
   }
-  static Vec<S> spread(const Vec<H>& v) { return {S(v.x), S(v.y), S(v.z)}; }
-  static Field<S> spread(const Field<H>& field) {
-    return {S(field.mu), spread(field.r), S(field.inverse_r2), S(field.strength),
-            field.has_gradient};
-  }
 
   void set_hub(std::size_t l, const Plan& plan) {
     plans_[l] = &plan;
@@ -188,7 +183,7 @@ class Vehicle {
     const Chart chart(state, Layout::kAttitude);
     const Vec<H> omega = vector(state, layout_.omega);
     dcm_NB_ = chart.dcm_NB();
-    const Vec<S> omega_S = spread(omega);
+    const Vec<S> omega_S = spread<S>(omega);
     limbs_.for_each([&](auto& group) { group.limb.move(state, omega_S); });
 
     begin_hub_law(omega, rotor_momentum(state, omega));
@@ -203,7 +198,7 @@ class Vehicle {
       hub = factors.solve(hub_);
     }
 
-    const Vec<S> omega_dot_S = spread(hub.omega_dot), a_S = spread(hub.a);
+    const Vec<S> omega_dot_S = spread<S>(hub.omega_dot), a_S = spread<S>(hub.a);
     limbs_.for_each([&](auto& group) { group.limb.recover(omega_dot_S, a_S, rate); });
     put_hub_rates(chart, state, dcm_NB_ * hub.a + g_N_, hub.omega_dot, rate);
     const Layout layout = layout_;  // or every store would have it read again
@@ -339,8 +334,8 @@ class Vehicle {
   void add_limbs(const Field<H>* field, const Vec<H>* r_CB) {
     if (field == nullptr && r_CB == nullptr) return add_limbs_in(nullptr, nullptr);
     // Not zeroed first where they are told: that takes longer than to spread them.
-    const Field<S> field_S = field == nullptr ? Field<S>() : spread(*field);
-    const Vec<S> r_CB_S = r_CB == nullptr ? Vec<S>() : spread(*r_CB);
+    const Field<S> field_S = field == nullptr ? Field<S>() : spread<S>(*field);
+    const Vec<S> r_CB_S = r_CB == nullptr ? Vec<S>() : spread<S>(*r_CB);
     add_limbs_in(field == nullptr ? nullptr : &field_S, r_CB == nullptr ? nullptr : &r_CB_S);
   }
   void add_limbs_in(const Field<S>* field, const Vec<S>* r_CB) {
